@@ -5,11 +5,11 @@ module dondolo_arguments
    use dondolo_base_lines, only : lines_type
    use dondolo_base_numbers, only : parse_integer, parse_real
    use dondolo_base_spelling, only : meant
-   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : join, replaced, to_text
    use dondolo_base_threads, only : largest_threads
    use dondolo_case_job_group, only : stripes_task, task_names
    use dondolo_example, only : example_names
+   use dondolo_files_system, only : file_exists
    use dondolo_front_door, only : python_commands
    implicit none
    private

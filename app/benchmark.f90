@@ -4,9 +4,9 @@ module dondolo_benchmark
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : counted, rounded, to_text
-   use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls, walls_of_each
    use dondolo_case, only : case_type
+   use dondolo_files_version, only : dondolo_version_text
    use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
    use dondolo_fragility_study, only : study_type
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since, surroundings

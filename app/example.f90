@@ -2,9 +2,9 @@
 module dondolo_example
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_base_error, only : error_type, raise_missing
-   use dondolo_base_process, only : own_folder
-   use dondolo_base_system, only : file_exists
-   use dondolo_base_text_file, only : read_text_file, text_file_type
+   use dondolo_files_process, only : own_folder
+   use dondolo_files_system, only : file_exists
+   use dondolo_files_text_file, only : read_text_file, text_file_type
    implicit none
    private
 
@@ -12,8 +12,9 @@ module dondolo_example
 
    !> The cases in data/cases
    character(len=*), parameter :: example_names(*) = [character(len=19) :: &
-      & 'designs', 'facade', 'facade_hinges', 'facade_strip', 'facades', 'gable', 'garden_wall', 'historic_centre', 'history', &
-      & 'parapet', 'parapet_on_building', 'pinnacle', 'population', 'tied_facade', 'two_block', 'uncertain_strip']
+      & 'compound', 'designs', 'elastic_strip', 'facade', 'facade_hinges', 'facade_strip', 'facades', 'gable', 'garden_wall', &
+      & 'historic_centre', 'history', 'parapet', 'parapet_on_building', 'pinnacle', 'population', 'portal', 'tied_facade', &
+      & 'two_block', 'uncertain_strip']
 
    !> How the cases say that they run from the repository
    character(len=*), parameter :: from_repository = 'from the root of the repository: dondolo data/cases/'

@@ -20,16 +20,16 @@ module dondolo_fit_lines
 contains
 
    !> Print a curve, or why there is none
-   subroutine print_fit(case, curve, saturation)
+   subroutine print_fit(case, curve, upper_asymptote)
       type(case_type), intent(in) :: case
       type(fragility_type), intent(in) :: curve
       !> Probability that the mechanisms can occur; absent: 1
-      real(wp), intent(in), optional :: saturation
+      real(wp), intent(in), optional :: upper_asymptote
 
       real(wp) :: share
 
       share = 1.0_wp
-      if (present(saturation)) share = saturation
+      if (present(upper_asymptote)) share = upper_asymptote
       if (curve%has_fit()) then
          write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
             & ', beta = '//rounded(curve%beta)//', status '//trim(fit_status_names(curve%status))
@@ -78,11 +78,11 @@ contains
    end function why_none
 
    !> Levels at which 16, 50 and 84 % collapse
-   pure function fractiles(case, curve, saturation) result(text)
+   pure function fractiles(case, curve, upper_asymptote) result(text)
       type(case_type), intent(in) :: case
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
-      real(wp), intent(in) :: saturation
+      real(wp), intent(in) :: upper_asymptote
       !> The levels and their unit, then 'never' where so many cannot collapse; filled up with blanks
       character(len=160) :: text
 
@@ -92,9 +92,9 @@ contains
       ! The shares increase, so that those that are never reached come last
       text = ''
       do i = 1, size(shares)
-         if (shares(i) < saturation) then
-            text = trim(text)//' '//rounded(curve%level(shares(i)/saturation))
-            if (i == count(shares < saturation)) text = trim(text)//case%stripes%scaling%unit_after_blank()
+         if (shares(i) < upper_asymptote) then
+            text = trim(text)//' '//rounded(curve%level(shares(i)/upper_asymptote))
+            if (i == count(shares < upper_asymptote)) text = trim(text)//case%stripes%scaling%unit_after_blank()
          else
             text = trim(text)//' never'
          end if
@@ -104,12 +104,12 @@ contains
    end function fractiles
 
    !> The share that can collapse, in brackets after a blank; empty if all can
-   pure function occurring(saturation) result(text)
-      real(wp), intent(in) :: saturation
+   pure function occurring(upper_asymptote) result(text)
+      real(wp), intent(in) :: upper_asymptote
       character(len=40) :: text
 
       text = ''
-      if (saturation < 1.0_wp) text = ' (can occur: '//rounded(100.0_wp*saturation)//' %)'
+      if (upper_asymptote < 1.0_wp) text = ' (can occur: '//rounded(100.0_wp*upper_asymptote)//' %)'
    end function occurring
 
    !> Print the standard errors of a curve of the population and their intervals, or why it has none

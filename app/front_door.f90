@@ -3,7 +3,7 @@ module dondolo_front_door
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_error, only : error_type, raise_failure
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_process, only : become, own_folder
+   use dondolo_files_process, only : become, own_folder
    implicit none
    private
 
@@ -11,7 +11,7 @@ module dondolo_front_door
 
    !> Commands of `python -m dondolo`
    character(len=*), parameter :: python_commands(*) = [character(len=9) :: &
-      & 'plot', 'report', 'relazione', 'xlsx', 'nrml', 'records', 'catalogue', 'serve']
+      & 'plot', 'report', 'relazione', 'xlsx', 'nrml', 'openquake', 'records', 'catalogue', 'serve']
 
    !> What an installation without the package is told
    character(len=*), parameter :: needs_package = ' needs the Python package dondolo, which is not installed beside this '// &

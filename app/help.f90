@@ -30,6 +30,7 @@ module dondolo_help
       & '   dondolo relazione PREFIX ... write a calculation report, in Italian or English, as Word, HTML or PDF', &
       & '   dondolo xlsx PREFIX          write the tables of a run into a workbook of Excel or LibreOffice', &
       & '   dondolo nrml PREFIX          write the curves of a run for OpenQuake', &
+      & '   dondolo openquake PREFIX DIR write a job of OpenQuake for the walls of a run: damage and losses of a town', &
       & '   dondolo records CATALOGUE    print a table of the records of a catalogue', &
       & '   dondolo catalogue FOLDER     make a catalogue of the accelerograms in a folder', &
       & '   dondolo serve [CASE.nml]     show a wall in the browser: its curve moves with the sliders', &
@@ -49,6 +50,14 @@ module dondolo_help
       & '   &solver       tolerances and the rotation that counts as collapse', &
       & '   &history      the record and its level (task history)', &
       & '   &check        the site of the checks by NTC 2018', &
+      & '', &
+      & 'E of masonry in Circolare 7/2019, Table C8.5.I, MPa, for young_modulus of free elements (in Pa); proposed is', &
+      & 'the range from the mean to half of it, for cracks, as values assumed by the designer:', &
+      & '   irregular stone, pebbles          690-1050     regular soft stone                1200-1620', &
+      & '   roughly cut stone                1020-1440     squared stone blocks              2400-3300', &
+      & '   split stone, well laid           1500-1980     solid bricks and lime mortar      1200-1800', &
+      & '   irregular soft stone              900-1260     perforated bricks and cement      3500-5600', &
+      & '', &
       & 'A case may have both &stripes and &history: both are checked and the task uses its own, so that one file', &
       & 'serves for the stripes of a wall and for one of its time histories.', &
       & 'Paths in a case are relative to its folder, those of results to the current folder.', &

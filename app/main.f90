@@ -7,11 +7,7 @@ program dondolo_main
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
-   use dondolo_base_process, only : hold_console, sleep_while_waiting
-   use dondolo_base_references, only : list_bibtex
-   use dondolo_base_system, only : output_arrives, set_up_process, stderr_is_terminal
    use dondolo_base_threads, only : available_threads, given_threads
-   use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type
    use dondolo_case_cited, only : list_used
@@ -26,6 +22,10 @@ program dondolo_main
    use dondolo_case_run_case, only : run_case
    use dondolo_completion, only : print_completion
    use dondolo_example, only : print_example
+   use dondolo_files_process, only : hold_console, sleep_while_waiting
+   use dondolo_files_references, only : list_bibtex
+   use dondolo_files_system, only : output_arrives, set_up_process, stderr_is_terminal
+   use dondolo_files_version, only : dondolo_version_text
    use dondolo_front_door, only : hand_over
    use dondolo_help, only : print_help
    use dondolo_motion_lane_variants, only : build_variant, check_variant

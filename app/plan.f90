@@ -9,8 +9,9 @@ module dondolo_plan
    use dondolo_base_warning, only : warnings_type
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_wall
+   use dondolo_case_event_warnings, only : warn_of_events
    use dondolo_case_job_group, only : history_task, task_names, typology_task
-   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_records
    use dondolo_case_population_case, only : find_start
    use dondolo_case_result_warnings, only : warn_of_plan
    use dondolo_case_results, only : shown_rows
@@ -25,8 +26,7 @@ module dondolo_plan
    use dondolo_population_store, only : store_type
    use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : record_type
-   use dondolo_record_clusters, only : cluster_label
-   use dondolo_record_table, only : record_table
+   use dondolo_records_record_table, only : record_table
    implicit none
    private
 
@@ -126,13 +126,12 @@ contains
    subroutine print_clusters(case)
       type(case_type), intent(in) :: case
 
-      character(len=:), allocatable :: label, line
+      character(len=:), allocatable :: line
       integer :: unknown, i
 
       unknown = 0
       do i = 1, size(case%suite%records)
-         call cluster_label(case%suite%records(i)%metadata, label)
-         if (len(label) == 0) unknown = unknown + 1
+         if (len(case%suite%labels%line(i)%text) == 0) unknown = unknown + 1
       end do
       line = counted(size(case%suite%records), 'record')//' in '//counted(maxval(case%suite%clusters), 'cluster')
       if (unknown == 0) then
@@ -161,10 +160,11 @@ contains
       else
          call wall_warnings%look(case%wall)
       end if
-      call wall_warnings%warn(warnings)
       if (case%job%task == history_task) then
+         call wall_warnings%warn(warnings, case%suite%records(case%history%record:case%history%record))
          call warn_of_records(case%suite, case%solver%gravity, warnings, case%history%record)
       else
+         call wall_warnings%warn(warnings, case%suite%records, case%stripes%thresholds)
          call warn_of_records(case%suite, case%solver%gravity, warnings)
          call warn_of_events(case%suite, warnings)
          call warn_of_plan(size(case%stripes%levels), case%suite%clusters, work, warnings)

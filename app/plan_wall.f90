@@ -105,6 +105,7 @@ contains
       end do
       call print_hinge(wall)
       if (allocated(wall%mechanism%restraints)) call print_ties(wall)
+      if (wall%mechanism%joint%exists) call print_joint(wall)
       call wall%mechanism%terms(0.0_wp, j, c, g, l, load)
       call print_line('trigger', rounded(wall%mechanism%trigger_acceleration()/wall%gravity)//' g: restoring moment '// &
          & rounded(g - load)//' N m/m over excitation lever '//rounded(l)//' kg m/m')
@@ -117,6 +118,19 @@ contains
          end if
       end associate
    end subroutine print_body
+
+   !> Print how a wall bends before its joints open
+   subroutine print_joint(wall)
+      type(wall_type), intent(in) :: wall
+
+      associate (joint => wall%mechanism%joint)
+         call print_line('joints', 'bend at T_1 = '//rounded(joint%period)//' s, '//rounded(100.0_wp*joint%damping)// &
+            & ' % of critical damping, '//rounded(joint%stiffness)//' N m/m per rad; they open at '// &
+            & rounded(joint%opening/wall%mechanism%capacity)//' of the capacity, where S_a(T_1) reaches '// &
+            & rounded(joint%opening_acceleration()/wall%gravity)//' g; a passage keeps e_0 = '//rounded(joint%restitution)// &
+            & ' of the speed')
+      end associate
+   end subroutine print_joint
 
    !> Print the ties of a wall and the accelerations that it withstands with them
    subroutine print_ties(wall)

@@ -3,11 +3,11 @@ module dondolo_status
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_error, only : error_type, raise_missing
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_lock, only : holder_type, look_at_lock
-   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : to_text
    use dondolo_case_replaced, only : list_outdated
    use dondolo_case_result_files, only : published_run
+   use dondolo_files_lock, only : holder_type, look_at_lock
+   use dondolo_files_system, only : file_exists
    use dondolo_population_store, only : look_into_store, store_type
    use dondolo_progress_bar, only : duration
    implicit none

@@ -16,7 +16,7 @@ module dondolo_summary
    use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, occurring, print_fit, print_population_errors
    use dondolo_fragility, only : fit_status_names
    use dondolo_fragility_drift_note, only : make_drift_note, share_of
-   use dondolo_motion_certificate, only : in_double, in_quadruple, not_computable
+   use dondolo_motion_certified, only : in_double, in_quadruple, not_computable
    use dondolo_motion_error_estimate, only : runs_of_estimate
    use dondolo_plan_wall, only : print_wall
    use dondolo_population_designs, only : design_type
@@ -345,13 +345,13 @@ contains
                who = 'population, '//typology%mechanism
                if (len(typology%group) > 0) who = 'group '''//typology%group//''', '//typology%mechanism
                if (k < thresholds) who = who//', EDP '//rounded(case%stripes%thresholds(k))
-               who = who//trim(occurring(typology%saturation))
+               who = who//trim(occurring(typology%upper_asymptote))
                if (typology%fit%has_fit()) then
                   write (output_unit, '(a)') who//': theta = '//rounded(typology%fit%theta)// &
                      & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &
                      & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
                      & '), status '//trim(fit_status_names(typology%fit%status))//'; at 16, 50, 84 %: '// &
-                     & trim(fractiles(case, typology%fit, typology%saturation))
+                     & trim(fractiles(case, typology%fit, typology%upper_asymptote))
                   call print_population_errors(typology)
                else
                   write (output_unit, '(a)') who//': no fragility curve, status '//trim(fit_status_names(typology%fit%status))

@@ -4,11 +4,11 @@
 module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
-   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : join
    use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_property_tables, only : property_table
    use dondolo_example, only : find_installed, substitute
+   use dondolo_files_system, only : file_exists
    use dondolo_wall_properties, only : mechanism_names
    implicit none
    private

@@ -2,11 +2,11 @@
 module dondolo_union_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_kinds, only : wp
-   use dondolo_base_probability, only : probability_text
    use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_case_results, only : results_type, shown_rows
+   use dondolo_files_probability, only : probability_text
    use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, occurring, print_fit
    use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_population, only : population_type
@@ -72,10 +72,10 @@ contains
       do k = 1, state
          if (k < state) write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
          if (k == state .and. state > 1) write (output_unit, '(a)', advance='no') 'collapse: '
-         call print_fit(case, union%curve(k), union%saturation)
+         call print_fit(case, union%curve(k), union%upper_asymptote)
       end do
       if (results%population%can_coincide(1)) write (output_unit, '(a)') 'independent mechanisms would give '// &
-         & trim(parameters(case, union%product(state), union%saturation))
+         & trim(parameters(case, union%product(state), union%upper_asymptote))
    end subroutine print_facade
 
    !> The one mechanism of a facade as the union of itself
@@ -90,12 +90,12 @@ contains
       associate (population => results%population)
          union%name = results%shown(1)%name
          union%rows = 1
-         union%saturation = population%row(1)%p_occ
+         union%upper_asymptote = population%row(1)%p_occ
          union%curve = population%curve(:, 1)
          union%histories = real(population%histories(:, 1), wp)
          allocate (union%fraction(size(case%stripes%levels), size(union%curve)))
          do k = 1, size(union%curve)
-            union%fraction(:, k) = union%saturation*real(population%reached(:, k, 1), wp)/union%histories
+            union%fraction(:, k) = union%upper_asymptote*real(population%reached(:, k, 1), wp)/union%histories
          end do
       end associate
    end subroutine take_row
@@ -142,7 +142,7 @@ contains
       character(len=:), allocatable :: who, product
 
       product = ''
-      if (with_product) product = '; independent: '//trim(parameters(case, union%product(state), union%saturation))
+      if (with_product) product = '; independent: '//trim(parameters(case, union%product(state), union%upper_asymptote))
       if (len(union%name) > 0) then
          who = union%name
       else if (len(union%group) > 0) then
@@ -150,22 +150,22 @@ contains
       else
          who = 'population, same histories'
       end if
-      write (output_unit, '(a)') who//trim(occurring(union%saturation))//': '// &
-         & trim(parameters(case, union%curve(state), union%saturation))//product
+      write (output_unit, '(a)') who//trim(occurring(union%upper_asymptote))//': '// &
+         & trim(parameters(case, union%curve(state), union%upper_asymptote))//product
    end subroutine print_line
 
    !> Parameters of a curve
-   function parameters(case, curve, saturation) result(text)
+   function parameters(case, curve, upper_asymptote) result(text)
       type(case_type), intent(in) :: case
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
-      real(wp), intent(in) :: saturation
+      real(wp), intent(in) :: upper_asymptote
       !> In words, filled up with blanks
       character(len=300) :: text
 
       text = 'no fragility curve, status '//fit_status_names(curve%status)
       if (curve%has_fit()) text = 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()//', beta = '// &
-         & rounded(curve%beta)//', at 16, 50, 84 % '//trim(fractiles(case, curve, saturation))
+         & rounded(curve%beta)//', at 16, 50, 84 % '//trim(fractiles(case, curve, upper_asymptote))
    end function parameters
 
    !> Print the checks of the first rows, and the probabilities of collapse at the peak acceleration of the site
@@ -250,7 +250,7 @@ contains
          end associate
          whole = wall_probability(p_occ, alternative, chances)
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
-            & trim(probability_text(max(union%saturation*union%curve(last)%probability(pga), maxval(p_occ*chances(1, :)))))// &
+            & trim(probability_text(max(union%upper_asymptote*union%curve(last)%probability(pga), maxval(p_occ*chances(1, :)))))// &
             & '; taken as independent '//trim(probability_text(whole(1)))
       end subroutine print_chance
 

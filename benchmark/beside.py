@@ -1,4 +1,4 @@
-"""Cost of ties, friction and moving supports beside a bare wall, and of what no history takes.
+"""Cost of ties, friction and moving supports beside a bare wall, of joints that bend, and of what no history takes.
 
 Ratios are of turns taken one after the other; accelerograms are the embedded synthetic ones.
 """
@@ -37,6 +37,17 @@ FACADES = {
     "moving supports": facade(building=BUILDING),
     "moving supports and a tie": facade(8.5, building=BUILDING),
 }
+
+
+def strip(**more):
+    """A strip between two floors that carries a load as a dead force."""
+    load = {"overburden": 21e3, "overburden_inertia": 0.0}
+    return dd.TwoBlockWall(2.85, 0.21, density=1884.0, hinge=0.72, restitution_factor=0.87, **load, **more)
+
+
+#: The first is what the others are compared with
+STRIPS = {"rigid": strip()} | {f"period {period} s": strip(elastic_period=period) for period in (0.03, 0.06, 0.1, 0.15)}
+STRIP_LEVELS = np.linspace(0.3, 3.3, 26)
 #: What is done in a process in which it has been done before, but for the import
 FIXED = {
     "import dondolo": "a new process, without NumPy's import",
@@ -50,19 +61,19 @@ FIXED = {
 }
 
 
-def facades(repeats):
-    """Measure the facades in turns: rows of seconds, and of ratios to the bare one in the same turn."""
+def in_turns(kind, walls, levels, repeats):
+    """Measure walls in turns: rows of seconds, and of ratios to the first one in the same turn."""
     records = dd.read_catalogue(CATALOGUE)
-    seconds, cores = {name: [] for name in FACADES}, Cores()
+    seconds, cores = {name: [] for name in walls}, Cores()
     for _ in range(repeats):
-        for name, wall in FACADES.items():
-            (taken,), _ = cores.turn(partial(timed, [wall], records, LEVELS, 1))
+        for name, wall in walls.items():
+            (taken,), _ = cores.turn(partial(timed, [wall], records, levels, 1))
             seconds[name].append(taken)
-    rows, histories = [], len(records) * len(LEVELS)
-    for place, name in enumerate(FACADES):
-        ratios = [mine / bare for mine, bare in zip(seconds[name], seconds["bare"], strict=True)]
-        rows.append(row("facade", place, histories, seconds[name]))
-        rows.append(row("facade ratio", place, histories, ratios))
+    rows, histories, first = [], len(records) * len(levels), next(iter(seconds.values()))
+    for place, own in enumerate(seconds.values()):
+        ratios = [mine / other for mine, other in zip(own, first, strict=True)]
+        rows.append(row(kind, place, histories, own))
+        rows.append(row(f"{kind} ratio", place, histories, ratios))
     return rows
 
 
@@ -128,5 +139,6 @@ def seconds_of(work):
 
 
 def measure(repeats):
-    """Measure both: rows as those of the scaling."""
-    return facades(repeats) + fixed(repeats)
+    """Measure all: rows as those of the scaling."""
+    walls = in_turns("facade", FACADES, LEVELS, repeats) + in_turns("strip", STRIPS, STRIP_LEVELS, repeats)
+    return walls + fixed(repeats)

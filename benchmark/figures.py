@@ -9,10 +9,11 @@ matplotlib.use("agg")
 import cost_model
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.figures.style import BLACK, BLUE, BRICK, GREY, LIGHT, RED, mechanism_name
-from dondolo.figures.themes import theme
 from matplotlib.ticker import NullFormatter
 from programs import DONDOLO
+
+from dondolo.figures.style import BLACK, BLUE, BRICK, GREY, LIGHT, RED, mechanism_name
+from dondolo.figures.themes import theme
 
 LOWEST = 1e-17  # errors of zero are drawn at this value
 OPEN = {"markerfacecolor": "white"}

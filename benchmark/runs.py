@@ -7,7 +7,7 @@ from dataclasses import astuple, dataclass, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from beside import FACADES
+from beside import FACADES, STRIPS
 from problem import ROOT
 from rounds import LIMIT, STILL, compared, core_of, ratio, references, shares, times_of
 from scaling import VARIANTS, spread_of
@@ -114,6 +114,8 @@ def figures(results, turns, rows):
             found[f"speed-up of {VARIANTS[size]}"] = spread_of(row)
         if row["kind"] == "facade ratio" and size > 0:
             found[f"facade with {list(FACADES)[size]} / bare"] = spread_of(row)
+        if row["kind"] == "strip ratio" and size > 0:
+            found[f"strip, {list(STRIPS)[size]} / rigid"] = spread_of(row)
     return [Figure(name, Spread(*(float(f"{x:.4g}") for x in astuple(spread)))) for name, spread in found.items()]
 
 

@@ -1,7 +1,7 @@
 """Scaling with threads and sizes, and memory."""
 
 import cost_model
-from beside import FACADES, FIXED
+from beside import FACADES, FIXED, STRIPS
 from markdown import paragraph, table
 from populations import KINDS
 from scaling import VARIANTS, spread_of
@@ -37,7 +37,7 @@ def scaling(rows):
     lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['median']:.1f}"] for r in rows if r["kind"] == "memory" and r["median"] > 0.0]
     lines += table(["histories", "peak memory, MiB"], body)
-    return lines + populations(rows) + facades(rows) + fixed(rows)
+    return lines + populations(rows) + facades(rows) + strips(rows) + fixed(rows)
 
 
 def per_history(row):
@@ -70,11 +70,27 @@ def facades(rows):
         "on the ground in front of a building (period 0.3 s), in turns on one thread; ratios are to the bare facade in "
         "the same turn."
     )
-    names = list(FACADES)
-    gains = [spread_of(row).stated() for row in rows if row["kind"] == "facade ratio"]
-    own = [row for row in rows if row["kind"] == "facade"]
+    return lines + in_turns(rows, "facade", list(FACADES))
+
+
+def strips(rows):
+    """Joints that bend beside rigid blocks; none in files of before."""
+    if not any(row["kind"] == "strip" for row in rows):
+        return []
+    lines = paragraph(
+        "A strip of 2.85 m by 0.21 m under 21 kN/m, of rigid blocks and with joints that bend before they open "
+        "(`elastic_period`), at 26 levels of PGA from 0.3 to 3.3 g, in turns on one thread; ratios are to the rigid "
+        "strip in the same turn."
+    )
+    return lines + in_turns(rows, "strip", list(STRIPS))
+
+
+def in_turns(rows, kind, names):
+    """Walls of a kind that took turns, with their ratios to the first."""
+    gains = [spread_of(row).stated() for row in rows if row["kind"] == f"{kind} ratio"]
+    own = [row for row in rows if row["kind"] == kind]
     body = [[names[int(r["size"])], per_history(r), gain] for r, gain in zip(own, gains, strict=True)]
-    return lines + table(["facade", "ms per history", "ratio"], body)
+    return table([kind, "ms per history", "ratio"], body)
 
 
 def fixed(rows):

@@ -16,10 +16,10 @@ import matplotlib
 matplotlib.use("agg")
 
 import numpy as np
-from dondolo.figures import style
-from dondolo.figures.options import Options
 
 import dondolo as dd
+from dondolo.figures import style
+from dondolo.figures.options import Options
 
 root = Path(__file__).resolve().parents[1]
 QUICK = "--quick" in sys.argv[1:]
@@ -32,7 +32,7 @@ if QUICK:
     centre = dd.Population(
         tuple(centre[i] for i in kept),
         centre.weights[kept],
-        groups=[centre.groups[i] for i in kept],
+        group_names=[centre.group_names[i] for i in kept],
         p_occ=centre.p_occ[kept],
     )
 LEVELS = 0.1 * np.arange(1, 21)  # the levels of data/cases/historic_centre.nml
@@ -130,8 +130,8 @@ def curves(study):
     for one in study.typology.groups:
         print(
             f"{one.group or 'population'}, {one.mechanism}: {one.n_walls} walls, {text(one.fit)}, beta_walls"
-            f" {one.beta_walls:.3f}, beta_records {one.beta_records:.3f}, fitted {one.fitted:.4f}, saturation"
-            f" {one.saturation:.4f}"
+            f" {one.beta_walls:.3f}, beta_records {one.beta_records:.3f}, fitted {one.fitted:.4f}, upper asymptote"
+            f" {one.upper_asymptote:.4f}"
         )
     for mechanism in (*MECHANISMS, "all"):
         fit = study.typology[mechanism or "all"].fit
@@ -165,8 +165,8 @@ def walls():
     for mechanism in MECHANISMS:
         rows = rows_of(mechanism)
         weights = centre.weights[rows] * centre.p_occ[rows]
-        for group in dict.fromkeys([None, *(centre.groups[i] for i in rows)]):
-            here = np.array([group in (None, centre.groups[i]) for i in rows])
+        for group in dict.fromkeys([None, *(centre.group_names[i] for i in rows)]):
+            here = np.array([group in (None, centre.group_names[i]) for i in rows])
             several = [centre[i] for i, chosen in zip(rows, here, strict=True) if chosen]
             facts = {
                 "height m": [wall.height for wall in several],
@@ -206,7 +206,8 @@ def occurrence(study):
         means = ", ".join(f"{typology['all'](level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
         frequency = typology["all"].risk(HAZARD).annual_frequency
         print(
-            f"p_occ {what}: {text(typology['all'].fit)}, saturation {typology['all'].saturation:.3f}; mean {means};"
+            f"p_occ {what}: {text(typology['all'].fit)}, upper asymptote"
+            f" {typology['all'].upper_asymptote:.3f}; mean {means};"
             f" {frequency:.3g} per year; the mean is 0.5 at {typology['all'].ppf(0.5):.3f} g"
         )
 
@@ -231,10 +232,10 @@ def polarity(study):
     )
 
 
-def fitted(fraction, histories, saturation=1.0, top=None):
-    """Fit a lognormal to a mean fraction divided by its saturation, at the lowest `top` levels."""
+def fitted(fraction, histories, upper_asymptote=1.0, top=None):
+    """Fit a lognormal to a mean fraction divided by its upper asymptote, at the lowest `top` levels."""
     n = float(histories)
-    return dd.fit_fragility(LEVELS[:top], np.clip(fraction[:top] / saturation * n, 0.0, n), n)
+    return dd.fit_fragility(LEVELS[:top], np.clip(fraction[:top] / upper_asymptote * n, 0.0, n), n)
 
 
 def restitution(study):
@@ -281,12 +282,13 @@ def dependence(study):
         ways = {"independent": (independent, series), "same record": (same, series)}
         if what == "p_occ as assumed":
             ways["never both"] = never_both(study, weights)
-        for way, (values, saturation) in ways.items():
+        for way, (values, upper_asymptote) in ways.items():
             fraction = np.average(values, axis=0, weights=weights)
-            fit = fitted(fraction, 44, saturation)
+            fit = fitted(fraction, 44, upper_asymptote)
             means = ", ".join(f"{np.interp(level, LEVELS, fraction):.3f} at {level} g" for level in (0.5, 1.0, 2.0))
             print(
-                f"walls with two mechanisms, {what}, {way}: {text(fit)}, saturation {saturation:.3f}; mean fraction"
+                f"walls with two mechanisms, {what}, {way}: {text(fit)}, upper asymptote"
+                f" {upper_asymptote:.3f}; mean fraction"
                 f" {means}"
             )
         off = independent - same
@@ -297,7 +299,7 @@ def dependence(study):
         )
     independent, same, _ = combined(study, centre.p_occ)
     check = np.abs(study.typology["all"].mean_fraction - centre_mean(study, independent)).max()
-    fit = fitted(centre_mean(study, same), 44, study.typology["all"].saturation)
+    fit = fitted(centre_mean(study, same), 44, study.typology["all"].upper_asymptote)
     print(f"population, same record: {text(fit)}; check of the sums {check:.1e}")
 
 
@@ -321,15 +323,15 @@ def combined(study, p_occ):
 
 
 def never_both(study, weights):
-    """Fractions (walls, levels) of the same walls if their mechanisms exclude each other, and the mean saturation.
+    """Fractions (walls, levels) of the same walls if their mechanisms exclude each other, and the mean upper asymptote.
 
     The histories are those of the checkpoint, which do not depend on what can occur.
     """
     exclusive = replace(centre, occurrence="exclusive")
     found = study.run("centre", exclusive, LEVELS, edp_thresholds=[0.1, 0.4])
     curves = [found.combined[centre[i].name] for i, _ in pairs()]
-    fractions = np.array([curve.saturation * curve.collapses / curve.histories for curve in curves])
-    return fractions, np.average([curve.saturation for curve in curves], weights=weights)
+    fractions = np.array([curve.upper_asymptote * curve.collapses / curve.histories for curve in curves])
+    return fractions, np.average([curve.upper_asymptote for curve in curves], weights=weights)
 
 
 def alternatives(study):
@@ -338,7 +340,7 @@ def alternatives(study):
         houses = dd.Population.from_csv(root / "data/walls/alternatives.csv", occurrence=occurrence)
         curve = study.run("houses", houses, LEVELS)["all"]
         values = ", ".join(f"{curve(x):.3f} at {x:g} g" for x in (0.5, 1.0, 2.0, 5.0))
-        print(f"thirty houses, {occurrence}: {values}, saturation {curve.saturation:.3f}")
+        print(f"thirty houses, {occurrence}: {values}, upper asymptote {curve.upper_asymptote:.3f}")
 
 
 def centre_mean(study, of_pairs):
@@ -351,7 +353,7 @@ def centre_mean(study, of_pairs):
 
 
 def mixture(study):
-    """Compare the mean curve with saturation x lognormal, and show its dependence on the highest level."""
+    """Compare the mean curve with upper asymptote x lognormal, and show its dependence on the highest level."""
     typology = study.typology
     x = np.linspace(0.01, 20.0, 2000)
     for mechanism in (*MECHANISMS, "all"):
@@ -364,7 +366,10 @@ def mixture(study):
             f"{level} g {typology[mechanism](level):.4f} {one.fit(level):.4f}"
             for level in (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0)
         )
-        print(f"{mechanism}: saturation {one.saturation:.3f}; curve - mean at most {gaps}; mean and curve: {levels}")
+        print(
+            f"{mechanism}: upper asymptote {one.upper_asymptote:.3f}; curve - mean at most {gaps};"
+            f" mean and curve: {levels}"
+        )
     for edp in typology.edp_thresholds:
         state = typology.at(edp)
         gap = state["all"].fit(x) - state["all"](x)
@@ -372,9 +377,9 @@ def mixture(study):
     for mechanism in ("one_sided", "all"):
         one = typology[mechanism]
         for top in (6, 10, 15, 20):
-            fit, raw = (fitted(one.mean_fraction, 44, share, top) for share in (one.saturation, 1.0))
+            fit, raw = (fitted(one.mean_fraction, 44, share, top) for share in (one.upper_asymptote, 1.0))
             print(
-                f"{mechanism}, levels up to {LEVELS[top - 1]:.1f} g: {text(fit)}; not divided by the saturation:"
+                f"{mechanism}, levels up to {LEVELS[top - 1]:.1f} g: {text(fit)}; not divided by the upper asymptote:"
                 f" {text(raw)}"
             )
 
@@ -394,8 +399,8 @@ def enough(study):
         survival = np.ones((len(names), len(LEVELS)))
         np.multiply.at(survival, owner, 1.0 - centre.p_occ[:, None] * by_record[:, :, records].mean(axis=2))
         weights = times * weight
-        saturation = np.average(1.0 - never, weights=weights)
-        return fitted(np.average(1.0 - survival, axis=0, weights=weights), 44, saturation).theta
+        upper_asymptote = np.average(1.0 - never, weights=weights)
+        return fitted(np.average(1.0 - survival, axis=0, weights=weights), 44, upper_asymptote).theta
 
     def error(records, walls):
         medians = []
@@ -426,9 +431,9 @@ def risk(study):
         for mechanism in (*MECHANISMS, "all"):
             curve = state[mechanism]
             mean, fit = (one.risk(HAZARD).annual_frequency for one in (curve, curve.fit))
-            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {fit:.4g}")
-    alone = replace(study.typology["all"].fit, saturation=1.0).risk(HAZARD).annual_frequency
-    print(f"   the lognormal of all without the saturation: {alone:.4g}")
+            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, upper asymptote x lognormal {fit:.4g}")
+    alone = replace(study.typology["all"].fit, upper_asymptote=1.0).risk(HAZARD).annual_frequency
+    print(f"   the lognormal of all without the upper asymptote: {alone:.4g}")
     one = study.typology["all"].risk(HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (0.2, 1.0), (1.0, 2.0), (2.0, 10.0)):
         print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.annual_frequency:.3f}")
@@ -490,14 +495,14 @@ def draw_sizes(ax, typology):
 
 
 def draw_mixture(ax, typology):
-    """Draw the mean curve of all mechanisms, saturation x lognormal, and a lognormal fitted without saturation."""
+    """Draw the mean curve of all mechanisms, upper asymptote x lognormal, and a lognormal fitted without it."""
     x = np.linspace(0.0, 4.0, 201)
     ax.plot(x, typology["all"](x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
     whole = typology["all"]
-    label = f"lognormal times saturation {whole.saturation:.2f}"
+    label = f"lognormal times upper asymptote {whole.upper_asymptote:.2f}"
     ax.plot(x, whole.fit(x), color=style.BLACK, linewidth=0.9, linestyle=(0, (4, 4)), label=label)
     raw = fitted(typology["all"].mean_fraction, 44)
-    ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without saturation")
+    ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without upper asymptote")
     ax.set_ylim(0.0, 1.02)
     ax.set_xlabel(style.im_label("pga"))
     ax.set_ylabel("probability of collapse")

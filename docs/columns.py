@@ -30,7 +30,7 @@ _SAME = None  # The meaning of COMMON
 TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
     "walls": (
         "The properties of the wall and of its building come first, in the order and meaning of"
-        " [Variables](variables.md).",
+        " [Variables](variables.md); notes, columns of the table of walls that begin with `x_` or `note`, come last.",
         {
             "alpha_rad": "angle between the vertical and the line from the hinge to the centroid; of `two_block` that"
             " of its lower block",
@@ -104,7 +104,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
         },
     ),
     "typology": (
-        "`theta` and `beta` are those of the lognormal fitted to `mean_fraction` / `saturation`. Mechanisms of a wall"
+        "`theta` and `beta` are those of the lognormal fitted to `mean_fraction` / `upper_asymptote`. Mechanisms of a"
+        " wall"
         " are independent in this table.",
         {
             "mechanism": "mechanism; `all`: any of them",
@@ -120,7 +121,7 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "fractile_84": "84 %",
             "beta_walls": "dispersion between walls: weighted standard deviation of ln theta",
             "beta_records": "dispersion between records: weighted root mean square of beta",
-            "saturation": "limit of the mean curve: share of the weight in which any mechanism can occur",
+            "upper_asymptote": "limit of the mean curve: share of the weight in which any mechanism can occur",
             "edp_threshold": _SAME,
             **dict.fromkeys(("se_ln_theta", "se_beta", "cov_ln_theta_beta", "errors", "clusters")),
             "degrees_of_freedom": _SAME,
@@ -186,8 +187,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "alpha_0": "multiplier α₀ of its check; this and what follows is empty without `&check`",
             "a_0_m_s2": "acceleration a₀*",
             "zeta_e_linear": "safety index ζ_E of SLV by the linear check; empty where that check is not applicable",
-            "zeta_e": "by the nonlinear check",
-            "return_period_capacity": "T_R,C of the nonlinear check of SLV, years; empty without `reference_life`",
+            "zeta_e": "of the ultimate state by the nonlinear check",
+            "return_period_capacity": "T_R,C of the latter, years; empty without `reference_life`",
             "return_period_bound": "`<` or `>` where that is only a bound",
             "alpha_0_change": "`alpha_0` less that of the first design; likewise below, empty for a bound",
             "a_0_change_m_s2": "of `a_0_m_s2`",
@@ -267,6 +268,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "nonlinear_slv_ratio": "capacity / demand",
             "nonlinear_slc_g": "likewise, nonlinear check of SLC",
             "nonlinear_slc_ratio": "capacity / demand",
+            "zeta_e": "safety index ζ_E of the wall: ratio of the nonlinear check of the ultimate state",
+            "satisfied": "whether all that the verdict rests on is verified, and nothing is open of ties or hinges",
             "probability_site": "probability of collapse by the curve at a_g S of the site, for the measure `pga`",
             "probability_nonlinear_slv": "the same at `nonlinear_slv_g`",
             "anchors_checked": "whether all anchors of its ties are checked; empty: not asked",

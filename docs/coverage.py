@@ -15,12 +15,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from dondolo.curves.fitting import fit
-from dondolo.curves.fragility import Fragility
-from dondolo.curves.sample import Sample, cluster_labels
 from scipy.special import ndtr, ndtri, stdtrit
 
 import dondolo as dd
+from dondolo.curves.fitting import fit
+from dondolo.curves.fragility import Fragility
+from dondolo.curves.sample import Sample, cluster_labels
 
 QUICK = "--quick" in sys.argv[1:]
 FOLDER = Path(__file__).parent
@@ -38,14 +38,14 @@ HAZARDS = {
         [0.01, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0], [0.5, 0.05, 0.015, 4e-3, 5e-4, 8e-5, 1e-5, 2e-7]
     ),
 }
-WALLS = {"one_sided": dd.OneSidedWall(1.5, 0.25), "two_block": dd.TwoBlockWall(3.0, 0.25)}
+WALLS = {"one_sided": dd.OneSidedWall(1.5, 0.25), "two_block": dd.TwoBlockWall(3.0, 0.25, hinge=0.5)}
 CONFIDENCE = 0.95
 # Of the comparison of chosen levels with equally spaced ones
 STRIPES = (4,) if QUICK else (4, 6, 8, 12)
 CHOSEN_WALLS = {
     "one_sided": dd.OneSidedWall(1.5, 0.25),
     "free_standing": dd.FreeStandingWall(2.0, 0.4),
-    "two_block": dd.TwoBlockWall(3.0, 0.25),
+    "two_block": dd.TwoBlockWall(3.0, 0.25, hinge=0.5),
 }
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
@@ -196,7 +196,7 @@ def frequencies(of: Outcomes, polarity: slice, size: int, n: int, seed: int) -> 
         if not curve.has_fit or curve.errors != "clustered":
             continue
         for name, hazard in HAZARDS.items():
-            low, high = curve.risk(hazard).uncertainty(n_draws=2000, seed=rng).interval()
+            low, high = curve.risk(hazard).uncertainty(n_draws=2000, rng=rng).interval()
             inside[name].append(low <= truth[name] <= high)
     return {name: float(np.mean(hits)) for name, hits in inside.items()}
 

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import matplotlib
@@ -18,12 +19,13 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+import rooms
+
+import dondolo as dd
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
 from dondolo.walls.shape import shape
-
-import dondolo as dd
 
 root = Path(__file__).resolve().parents[1]
 records = dd.read_catalogue(root / "data/records/synthetic44.csv")
@@ -48,12 +50,14 @@ def main() -> None:
     ties()
     anchor()
     interlocking()
+    compound()
     processing()
     pulses()
     overturning()
     free_rocking()
     statistics()
     spectra()
+    rooms.draw(figures / "rooms.png")
 
 
 def new_axes(rows, columns, size, **options):
@@ -413,6 +417,27 @@ def interlocking():
     axes[1].set(xlabel="rotation q [rad]", ylabel="restoring moment [kN m/m]", xlim=(0.0, None), ylim=(0.0, None))
     axes[1].legend(loc="upper right")
     figure.savefig(figures / "interlocking.png", dpi=100)
+
+
+def compound():
+    """Draw a facade that takes a wedge of a transverse wall along, and its multiplier over the angle of the crack."""
+    wedge = dd.Wedge(thickness=0.45, angle=20.0, bottom=0.0, top=7.0, length=9.0)
+    loads = [dd.Load(force, depth=d, height=z, inertia="both") for force, d, z in ((8e3, 0.4, 3.5), (4e3, 0.35, 7.0))]
+
+    def facade(angle):
+        wedges = [replace(wedge, angle=angle)] * 2
+        return dd.OneSidedWall(
+            *(7.0, 0.55), density=1900.0, hinge_depth=0.02, facade_length=6.0, wedges=wedges, loads=loads, name="facade"
+        )
+
+    figure, axes = new_axes(1, 2, (9.0, 4.6), width_ratios=(1.0, 1.4))
+    facade(20.0).plot(axes[0], rotation=0.06)
+    axes[0].set_title("rotated by 0.06 rad", loc="left")
+    angles = np.linspace(0.0, 35.0, 71)
+    # Loads go with the wall, so that alpha_0 is its trigger acceleration in g
+    axes[1].plot(angles, [facade(a).trigger_acceleration / 9.81 for a in angles], color=style.BLUE, linewidth=1.8)
+    axes[1].set(xlabel="angle of the crack [degrees]", ylabel="multiplier", xlim=(0.0, 35.0), ylim=(0.0, None))
+    figure.savefig(figures / "compound.png", dpi=100)
 
 
 def processing():

@@ -12,9 +12,9 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from dondolo.serve.levels import chosen_levels
 
 import dondolo as dd
+from dondolo.serve.levels import chosen_levels
 
 TARGET = Path(__file__).parent / "site/static/curve_table.js"
 HEIGHTS = np.round(np.geomspace(2.0, 12.0, 16), 2)

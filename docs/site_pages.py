@@ -57,7 +57,7 @@ def _command_line() -> str:
     """What the executable and the package say of themselves."""
     executable = Path(sys.executable).with_name("dondolo")
     lines = ["# Command line", "", "## dondolo", "", *_printed([executable, "--help"])]
-    commands = ("plot", "report", "xlsx", "nrml", "records", "catalogue", "serve")
+    commands = ("plot", "report", "xlsx", "nrml", "openquake", "records", "catalogue", "serve")
     for command in commands:
         lines += [f"## dondolo {command}", "", *_printed([executable, command, "--help"])]
     return "\n".join(lines)

@@ -34,8 +34,8 @@ Every variable of a namelist file, group by group. `dondolo --template` prints t
 The names of `&wall` and `&building` are also the columns of a population and the arguments of the walls and of
 `dd.Building` in Python. Values of a list are in numbered columns, `period1`, `period2` ... In Python they are parts:
 `tie_height` and `tie_area` of all ties are `height` and `area` of each `dd.Tie`. The same holds for `dd.Section`,
-`dd.Load`, `dd.PushedMass` (`inertia_mass`), `dd.Thrust`, `dd.Spring` and `dd.Bed`; `dd.Interlock` has the names that
-begin with `interlock`.
+`dd.Load`, `dd.InertialMass` (`inertia_mass`), `dd.Thrust`, `dd.Spring`, `dd.DistributedSpring` and `dd.Wedge`;
+`dd.Interlock` has the names that begin with `interlock`.
 
 A variable without a default has no value if left out. An empty `only for` means all mechanisms and tasks.
 """
@@ -75,7 +75,10 @@ def table(group: str) -> list[str]:
     lines.append("|---|---|---|---|---|---|")
     for row in properties(group):
         owners = "" if set(row.owners) == set(MECHANISMS) else ", ".join(row.owners)
-        cells = [f"`{row.name}`", row.unit, default(row), allowed(row), owners, LEFT_OUT.sub("", row.meaning)]
+        meaning = LEFT_OUT.sub("", row.meaning)
+        if row.not_with:
+            meaning += "; not with " + ", ".join(f"`{name}`" for name in row.not_with)
+        cells = [f"`{row.name}`", row.unit, default(row), allowed(row), owners, meaning]
         lines.append("| " + " | ".join(cells) + " |")
     return [*lines, ""]
 

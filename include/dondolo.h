@@ -54,7 +54,8 @@ int dondolo_set_text(dondolo_error *error, dondolo_settings *settings, const cha
 
 /* Records: of a catalogue, with their vertical components times a factor unless it is 0; the one accelerogram of a file, whose
  * time step [s] and units are those that the file states where 0 and NULL are given; or of arrays: numbers of samples, time
- * steps [s], the samples of all, one record after the other [m/s2], and names, or NULL for their numbers. */
+ * steps [s], the samples of all, one record after the other [m/s2], and names, or NULL for their numbers.
+ * A file of plain columns that does not say what they are needs a catalogue, with its column columns. */
 dondolo_records *dondolo_read_records(dondolo_error *error, const char *catalogue, double vertical_factor);
 dondolo_records *dondolo_read_record(dondolo_error *error, const char *file, double dt, const char *units);
 dondolo_records *dondolo_new_records(dondolo_error *error, int count, const int *lengths, const double *dt,
@@ -86,7 +87,8 @@ dondolo_history *dondolo_run_history(dondolo_error *error, const dondolo_wall *w
  * records   samples, dt, pga [m/s2], cluster;                                       texts names (a line each), warnings
  * wall      gravity, radius, slenderness_angle, frequency_parameter, trigger_acceleration, capacity_angle,
  *           restitution_coefficient, base_hinge_depth, greatest_acceleration, plastic_acceleration, support_share,
- *           support_tilt, two_sided;                                                texts name, mechanism
+ *           support_tilt, misfit, opening_edp, opening_acceleration, elastic_restitution, two_sided;
+ *                                                                                   texts name, mechanism
  * stripes   edp_limit; of each level levels, histories, collapses; of each history of a level record (from 0), polarity,
  *           cluster; of each history scale, ran, edp, collapsed, impacts, time_of_peak, edp_error;   texts im, warnings
  * curve     has_curve, theta, beta, has_errors, se_ln_theta, se_beta, covariance (of ln theta, of both, of beta), clusters,

@@ -22,7 +22,8 @@ def problems(wheel: Path) -> list[str]:
     examples = [
         f".data/data/share/dondolo/{path.relative_to(ROOT / 'data')}"
         for path in (ROOT / "data").glob("**/*")
-        if path.is_file() and path.suffix != ".py"
+        # Measured campaigns are for ./run experiments, which needs a clone
+        if path.is_file() and path.suffix != ".py" and "experiments" not in path.parts
     ]
     licences = ["LICENSE", *(f"packaging/licenses/{path.name}" for path in (ROOT / "packaging/licenses").iterdir())]
     wanted = [*sources, *examples, ".data/scripts/dondolo", *(f".dist-info/licenses/{name}" for name in licences)]

@@ -21,41 +21,27 @@
 !>     end if
 !>     if (allocated(error)) print *, error%message
 module dondolo
-   use dondolo_base_error, only : error_type
-   use dondolo_base_kinds, only : wp
-   use dondolo_base_version, only : dondolo_version_text
-   use dondolo_record, only : new_record, record_type
-   use dondolo_record_catalogue, only : read_catalogue
-   use dondolo_record_ground_motion, only : ground_displacement, ground_velocity
-   use dondolo_record_intensity, only : im_names, measure_type, new_measure
-   use dondolo_record_metadata, only : entry_type, metadata_type
-   use dondolo_record_reader, only : read_record, read_records
-   use dondolo_record_response_spectrum, only : pseudo_acceleration, spectral_displacement
-   use dondolo_record_suite, only : new_suite, suite_type
-   use dondolo_record_synthetic, only : synthetic_record
-   use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
-   use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_restraint, only : restraint_type
-   use dondolo_motion_initial_state, only : initial_state_type
-   use dondolo_motion_queue, only : progress_interface
-   use dondolo_motion_response, only : response_type, tie_response_type, trace_type
-   use dondolo_motion_simulate, only : simulate
-   use dondolo_motion_solver, only : check_limit, check_solver, engine_names, solver_type
-   use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_fragility_scaling, only : new_scaling, scaling_names, scaling_type
-   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
-   use dondolo_fragility_study, only : new_study, polarity_names, study_type
-   use dondolo_population, only : population_type
-   use dondolo_population_reader, only : population_reader_type, read_population
-   use dondolo_population_table, only : population_table_type
-   use dondolo_population_typology, only : combine_population, typology_type
-   use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_core, only : check_limit, check_solver, engine_names, entry_type, error_type, fit_fragility, fragility_type, &
+      & ground_displacement, ground_velocity, im_names, initial_state_type, measure_type, mechanism_names, mechanism_type, &
+      & metadata_type, multiple_stripe, new_measure, new_record, new_scaling, new_study, new_wall, polarity_names, &
+      & progress_interface, pseudo_acceleration, record_type, response_type, restraint_type, scaling_names, scaling_type, &
+      & simulate, solver_type, spectral_displacement, stripes_type, study_type, suite_type, synthetic_record, &
+      & tie_response_type, trace_type, wall_input_type, wall_type, wp
    use dondolo_case, only : case_type
    use dondolo_case_population_case, only : merge_population
    use dondolo_case_read_case, only : read_case
    use dondolo_case_reports, only : check_reports, write_reports
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : run_case
+   use dondolo_files_version, only : dondolo_version_text
+   use dondolo_population, only : population_type
+   use dondolo_population_reader, only : population_reader_type, read_population
+   use dondolo_population_table, only : population_table_type
+   use dondolo_population_typology, only : combine_population, typology_type
+   use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_records_catalogue, only : read_catalogue
+   use dondolo_records_clusters, only : new_suite => gather_suite
+   use dondolo_records_record_reader, only : read_record, read_records
    implicit none
    private
 

@@ -38,13 +38,13 @@ program() {
 link_readers() {
    local library modules
    library=$(find build -name libdondolo.a -exec grep -q __asan_init {} \; -printf '%T@ %p\n' | sort -n | awk 'END { print $2 }')
-   modules=$(find build -name 'src_dondolo*_text_text.f90.o' -exec grep -q __asan_init {} \; -printf '%T@ %h/..\n' |
+   modules=$(find build -name 'src_core*_text_text.f90.o' -exec grep -q __asan_init {} \; -printf '%T@ %h/..\n' |
       sort -n | awk 'END { print $2 }')
    sed 's/small_things = 2_int64\*\*26, stack = 2_int64\*\*24/small_things = 2_int64**16, stack = 0_int64/' \
-      src/dondolo/base/system/memory.f90 >"$work/memory.f90"
+      src/core/base/system/memory.f90 >"$work/memory.f90"
    # shellcheck disable=SC2086
    gfortran $flags -fopenmp -J "$work" -I "$modules" -o "$work/readers" "$work/memory.f90" \
-      src/dondolo/base/system/number_table.f90 test/{checks,small_files,archive_files,test_readers}.f90 "$library" -llapack -lblas
+      src/study/files/number_table.f90 test/{checks,small_files,archive_files,test_readers}.f90 "$library" -llapack -lblas
    echo "$work/readers"
 }
 

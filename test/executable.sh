@@ -249,6 +249,20 @@ run --check --quiet tall.nml
 check "check, quiet: nothing but warnings" equal "$rc $(cat stdout)" "0 "
 check "check, quiet: the warning" contains stderr "dondolo: warning: wall 'wall, one': height = 300 m is more than 60 m"
 
+# What a strip leaves out, and a floor that the ground governs
+sed "s/'one_sided'/'two_block', overburden = 15e3, overburden_inertia = 0/; s/thickness = 0.25/thickness = 0.20/" good.nml >strip.nml
+cat >>strip.nml <<'NML'
+&building period = 0.3, storeys = 3, level = 0.0, building_height = 9.6 /
+&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B', knowledge_factor = 1.2 /
+NML
+run strip.nml
+check "a strip that bends: the warning" contains stderr 'and medians are 6 to 22 % lower at a period of 0.10 s'
+check "a strip that bends: in the file of the run" contains out/deep/wall_run.json '"bending_neglected"'
+check "a strip near the ground: the ground governs" contains stdout 'note: the modes of the building give a_Z = '
+check "a strip near the ground: by analogy" contains stdout 'by analogy with [C7.2.11]'
+check "a strip near the ground: both numbers" contains out/deep/wall_check.csv 'modal_pga'
+rm -rf out
+
 sed -e "s/levels = .*/first = 0.4, last = 1.0, count = 4/; /0.6, 1.0/d" good.nml >grid.nml
 run grid.nml
 check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1'
@@ -291,7 +305,7 @@ check "typology: exit code" equal "$rc" 0
 check "typology: files" equal "$(ls out | tr '\n' ' ')" \
    "people_fragility.csv people_run.json people_stripes.csv people_typology.csv people_walls.csv "
 check "typology: header" equal "$(header out/people_typology.csv)" \
-   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,\
+   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,upper_asymptote,edp_threshold,\
 se_ln_theta,se_beta,cov_ln_theta_beta,errors,clusters,degrees_of_freedom"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
@@ -307,14 +321,20 @@ check "typology: mean fraction" equal \
    "$(grep '^all,' out/people_typology.csv | awk -F, '{ printf "%.9f ", $5 }')" \
    "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $(NF - 1) / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
+population | sed '1s/$/,x_address,Note/; 2s/$/,"via Roma 3, 2",=1/; 3s/$/,,1.10/' >walls.csv
+run people.nml
+check "notes: kept at the end of the walls" equal "$(grep -v '^#' out/people_walls.csv | sed -E '1s/.*,(x_)/\1/; 2,$s/^[^,"]*,.*E[+-][0-9]+,//; 3s/^.*E[+-][0-9]+,//' | tr '\n' '|')" \
+   'x_address,Note|"via Roma 3, 2",=1|,1.10|'
+population >walls.csv
 rm -rf out
 { population_case; echo "&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B' /"; } >checked.nml
 run checked.nml
 check "checks of a population: rows" equal "$(rows out/people_checks.csv)" 2
 check "checks of a population: a_g S that a wall stands, nonlinear, SLV" equal \
    "$(grep '^a,' out/people_checks.csv | awk -F, '{ printf "%.10f", $11 / 1.2 }')" 0.0820616990
+# 2 t/(H r) at the weakest hinge, which is the highest of the range: r = 0.9
 check "checks of a population: alpha_0 of a strip" equal \
-   "$(grep '^"b ' out/people_checks.csv | awk -F, '{ printf "%.10f", $4 }')" 0.2777777778
+   "$(grep '^"b ' out/people_checks.csv | awk -F, '{ printf "%.10f", $4 }')" 0.1851851852
 check "checks of a population: summary" contains stdout 'C8.7.1.2.1, of 2 rows'
 check "checks of a population: verdicts" grep -qE '^nonlinear +SLV +0\.24 +0 +0\.4103$' stdout
 rm -rf out
@@ -430,11 +450,11 @@ check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
    restitution_value restitution_factor overburden overburden_inertia bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
-   engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star soil topography knowledge_factor behaviour; do
+   engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star latitude longitude nominal_life use_class soil topography knowledge_factor behaviour ultimate_state friction; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
 # Every default that a template shows is the one in force: a case that leaves it out has the same echo
-sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity|code|soil|topography|knowledge_factor|behaviour) = /d' \
+sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity|code|use_class|soil|topography|knowledge_factor|behaviour|ultimate_state) = /d' \
    stripes.nml >short.nml
 run --quiet stripes.nml
 cp out/stripes_fragility.csv long.csv
@@ -493,7 +513,7 @@ check "completion: examples" equal "$(complete_word --example pin)" pinnacle
 # Commands that Python carries out, and the line where there is no Python with the package
 mkdir alone
 cp "${windows:-$exe}" alone/dondolo
-for command in plot report relazione xlsx nrml records catalogue; do
+for command in plot report relazione xlsx nrml openquake records catalogue; do
    check "$command: in the help" grep -q "^   dondolo $command " <("$exe" --help)
    if on_posix; then
       said=$(PATH=/nowhere alone/dondolo $command nothing 2>&1)
@@ -589,8 +609,8 @@ refused "negative threads" '--threads -1: must be an integer' --threads -1 good.
 refused "empty threads" '--threads : must be an integer' --threads= good.nml
 refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
 refused "two actions" '--version: cannot go together with --check' --check --version
-refused "example that does not exist" "--example barn: must be one of 'designs', 'facade'" --example barn
-refused "example without a name" "--example: must be one of 'designs', 'facade'" --example
+refused "example that does not exist" "--example barn: must be one of 'compound', 'designs', 'elastic_strip', 'facade'" --example barn
+refused "example without a name" "--example: must be one of 'compound', 'designs', 'elastic_strip', 'facade'" --example
 refused "example with a case" '--example takes no case' good.nml --example parapet
 refused "completion of an unknown shell" "--completion fish: must be one of 'bash', 'zsh'" --completion fish
 refused "run without a case" 'no case given' run
@@ -669,6 +689,9 @@ s/thickness = 0.25/thickness = 0.25 density = 0/|bad.nml: &wall: density = 0: mu
 s/thickness = 0.25/thickness = 0.25 hinge = 0.5/|bad.nml: &wall: hinge = 0.5: only for mechanism = 'two_block'
 s/thickness = 0.25/thickness = 0.25 overburden = 10/|bad.nml: &wall: overburden = 10: only for mechanism = 'two_block'
 s/thickness = 0.25/thickness = 0.25 eccentricity = 0.1/|bad.nml: &wall: eccentricity = 0.1: only for mechanism
+s/thickness = 0.25/thickness = 0.25 leaves = 2 tie_height = 2.5 tie_area = 5e-5 tie_length = 8/|bad.nml: &wall: tie_height: not with leaves = 2, it acts on one leaf; describe each leaf as a wall of its own thickness
+s/thickness = 0.25/thickness = 0.25 leaves = 2 mass = 900 centroid_depth = 0.1 centroid_height = 1.5 hinge_inertia = 3000/|bad.nml: &wall: mass = 900: not with leaves = 2
+s/thickness = 0.25/thickness = 0.25 hinge_depth = 0.01 compressive_strength = 2e6/|bad.nml: &wall: hinge_depth = 0.01: give either hinge_depth or compressive_strength
 s/one_sided'/two_block' hinge = 1/|bad.nml: &wall: hinge = 1: must lie between 0.01 and 0.99
 s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must lie between 0 and 1e9 N/m
 s/one_sided'/two_block' eccentricity = 0.2/|bad.nml: &wall: eccentricity = 0.2: must lie between -0.125 and 0.125
@@ -766,6 +789,9 @@ s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'F' \/\n\1/|bad.nml: &check: soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'
 s/^(&stripes)/\&check ag = 2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check: ag = 2: must lie between 0.001 and 1 g
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5 \/\n\1/|bad.nml: &check: tc_star: must be given
+s/^(&stripes)/\&check latitude = 39.22, longitude = 9.12, nominal_life = 50 \/\n\1/|bad.nml: &check: latitude = 39.22, longitude = 9.12: outside the grid of hazard
+s/^(&stripes)/\&check ag = 0.2, latitude = 42.35, longitude = 13.4, nominal_life = 50 \/\n\1/|bad.nml: &check: ag: not with latitude and longitude
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, nominal_life = 50 \/\n\1/|bad.nml: &check: nominal_life: only with latitude and longitude
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, knowledge_factor = 1.5 \/\n\1/|bad.nml: &check: knowledge_factor = 1.5: must lie between 1 and 1.35
 s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check (line 18): not for task = 'history'
 TABLE
@@ -797,6 +823,8 @@ catalogue() {
 }
 catalogue "a record that is not there" 'file,dt_s,units\nnone.txt,0.01,g\n' 'records/bad.csv: line 2: records/none.txt'
 catalogue "no column file" 'name,dt_s,units\nr1.txt,0.01,g\n' "records/bad.csv: no column 'file'"
+catalogue "a workbook" 'PK\0003\0004 xl/workbook.xml xl/styles.xml' \
+   'records/bad.csv: seems to be a workbook of a spreadsheet (xlsx), not a text: save its table as CSV'
 catalogue "no records" 'file,dt_s,units\n' 'records/bad.csv: no records'
 catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/bad.csv: line 2: dt_s = '0,01': must be a number"
 catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
@@ -818,13 +846,14 @@ people() {
 }
 head='name,mechanism,height,thickness,weight\n'
 people "unknown column" 'name,mechanism,heigth\na,one_sided,3\n' \
-   "walls.csv: column 'heigth': no such column; did you mean 'height'? dondolo --template typology lists all"
+   "walls.csv: column 'heigth': no such column; did you mean 'height'? dondolo --template typology lists all; one that is only kept begins with x_ or note"
 people "unknown column: none is near" 'name,mechanism,altezza\na,one_sided,3\n' \
-   "walls.csv: column 'altezza': no such column; dondolo --template typology lists all"
+   "walls.csv: column 'altezza': no such column; dondolo --template typology lists all; one that is only kept begins with x_ or note"
 run --template typology
 for column in building_height refine weight group p_occ; do
    check "unknown column: all that there are: $column" contains stdout "! $column "
 done
+people "a workbook" 'PK\0003\0004 xl/workbook.xml' 'walls.csv: seems to be a workbook of a spreadsheet (xlsx), not a text: save its table as CSV'
 people "no walls" "$head" 'walls.csv: no walls under the header'
 people "the same name twice" "${head}a,one_sided,3,0.3,1\na,one_sided,4,0.3,1\n" \
    "walls.csv: line 3: name = 'a': the row before gives this wall the same mechanism"

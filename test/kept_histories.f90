@@ -114,6 +114,7 @@ contains
          call input%set('mechanism', mechanism)
          call input%set('height', 3.0_wp)
          call input%set('thickness', 0.25_wp)
+         if (mechanism == 'two_block') call input%set('hinge', 0.5_wp)
          if (present(hinge)) call input%set('hinge', hinge)
          if (present(restitution)) then
             call input%set('restitution_value', restitution)

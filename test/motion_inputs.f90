@@ -41,6 +41,7 @@ contains
       type(error_type), allocatable :: error
 
       call input%set('mechanism', mechanism)
+      if (mechanism == 'two_block') call input%set('hinge', 0.5_wp)
       call input%set('height', height)
       call input%set('thickness', thickness)
       if (present(restitution)) then

@@ -36,7 +36,7 @@ contains
       all(5) = sample_of(cwa_content(), 'cwa')
       all(6) = sample_of(asa_content('7'), 'asa')
       all(7) = sample_of(eqsig_content('7'), 'eqsig')
-      all(8) = sample_of(columns_content('# remark: x'//lf//'t,a,b,c'//lf), 'columns')
+      all(8) = sample_of(columns_content('# remark: x'//lf//'t,acc x,acc y,acc z'//lf), 'columns')
       all(10) = sample_of(afad_content(), 'afad')
       all(11) = sample_of(nied_content(), 'nied')
       all(9) = sample_of('0 1'//lf//'.01 2'//lf//'.02 -1.5'//lf, 'columns')

@@ -4,13 +4,13 @@
 program test_archives
    use archive_files, only : cosmos, cosmos_type, csmip, geonet, motion, smc, with_crlf
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
+   use dondolo_files_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_record, only : record_type
-   use dondolo_record_header_text, only : after, before, leading_number, parse_format, squeezed
-   use dondolo_record_reader, only : read_record, read_records
+   use dondolo_records_header_text, only : after, before, leading_number, parse_format, squeezed
+   use dondolo_records_record_reader, only : read_record, read_records
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_archives', lf = achar(10)
@@ -25,6 +25,7 @@ program test_archives
    call test_cosmos_records()
    call test_cosmos_errors()
    call test_csmip()
+   call test_csmip_days()
    call test_csmip_errors()
    call test_geonet()
    call test_geonet_errors()
@@ -281,6 +282,36 @@ contains
       call check_ok(error, 'channel 3')
       call check_text(record%metadata%get('component'), '0 DEG', 'component of channel 3')
    end subroutine test_csmip
+
+   !> CSMIP without an origin: the day of the earthquake is that of the local time, else that on which the record begins
+   subroutine test_csmip_days()
+      character(len=*), parameter :: step = '.020 SEC.  (UNITS: CM/SEC/SEC)'
+      character(len=*), parameter :: time = 'MAY 2, 1983 16:42 PDT                   (ORIGIN(XYZ): 05/02/83, 23:42:38.5 UTC)'
+      character(len=*), parameter :: trigger = 'TRIGGER TIME: 05/02/83, 16:42:48.2 PDT'
+      character(len=:), allocatable :: known, none
+
+      call suite('csmip days')
+      known = csmip('90 DEG', '13', step, '(8F10.3)', 10.0_wp)
+      none = replaced(known, time, 'PRELIMINARY PROCESSING       (ORIGIN: TO BE DETERMINED)')
+      call check_day(replaced(known, time, 'APR 7, 1974 03:10 PST  (ORIGIN: UNKNOWN)'), 'APR 7, 1974 03:10 PST', '1974-04-07')
+      call check_day(replaced(none, 'SMALL TOWN EARTHQUAKE'//achar(10), 'RCRD OF WED JUN 9, 1993 01:02:03.0 PDT'//achar(10)), &
+         & 'recording', '1993-06-09')
+      call check_day(none, 'trigger', '1983-05-02')
+      call check_day(replaced(none, trigger, 'START TIME: 11/30/07, 09:20:33.0 UTC (GPS)'), 'start', '2007-11-30')
+      call check_day(replaced(none, trigger, 'START TIME: 7/09/1999, 09:20:33.0 UTC'), 'start, four figures', '1999-07-09')
+      call check_day(replaced(none, trigger, 'TRIGGER TIME: UNKNOWN'), 'none', '')
+   end subroutine test_csmip_days
+
+   !> The day of a CSMIP file
+   subroutine check_day(content, what, day)
+      character(len=*), intent(in) :: content, what, day
+      type(record_type) :: record
+      character(len=:), allocatable :: date
+
+      call check_motion('day.V2', content, 0.1_wp, 0.02_wp, record)
+      date = record%metadata%get('date')
+      call check_text(date(:min(10, len(date))), day, what)
+   end subroutine check_day
 
    !> CSMIP: what is wrong
    subroutine test_csmip_errors()

@@ -4,7 +4,6 @@ program test_case
    use dondolo_base_error, only : error_type, status_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_system, only : is_folder, remove_folder, same_file
    use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
    use dondolo_case_columns, only : columns_type, integer_column, real_column, text_column
@@ -19,6 +18,7 @@ program test_case
    use dondolo_case_result_tables, only : list_tables, table_kind_type, table_suffixes
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : plan_case, run_case
+   use dondolo_files_system, only : is_folder, remove_folder, same_file
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_error_estimate, only : runs_of_estimate
    use dondolo_motion_work, only : work_type
@@ -32,7 +32,7 @@ program test_case
       & "&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /"//lf
    !> A catalogue of two records, a case of each task
    character(len=*), parameter :: records = "&records catalogue = 'records.csv' polarity = 'reversed' /"//lf
-   character(len=*), parameter :: wall = "&wall mechanism = 'two_block', height = 3, thickness = 0.25, "// &
+   character(len=*), parameter :: wall = "&wall mechanism = 'two_block', height = 3, thickness = 0.25, hinge = 0.5, "// &
       & "restitution_value = 0.9, name = 'it''s' /"//lf
    character(len=*), parameter :: stripes_case = "&job output = '"//scratch//"/out/x' title = 'two words' /"//lf// &
       & wall//records//"&stripes levels = 0.3, 0.5, 1 /"//lf//"&solver rtol = 1e-7 edp_limit = 0.9 /"
@@ -57,6 +57,7 @@ program test_case
    call test_work()
    call test_output()
    call test_tables()
+   call test_texts()
    call finish()
 
 contains
@@ -293,6 +294,17 @@ contains
       call check(rows(2)%wall%mechanism%two_sided, 'mechanism')
       call read_population(scratch//'/walls.csv', rows, error, gravity=5.0_wp)
       call check_close(rows(1)%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
+      call write_file('notes.csv', 'x_Via,mechanism,height,NOTE 2,thickness'//lf//'"a, b",one_sided,2,,0.3'//lf// &
+         & ',one_sided,2,  1.10 ,0.3'//lf)
+      call read_population(scratch//'/notes.csv', rows, error)
+      call check_ok(error, 'notes')
+      call check_text(rows(1)%notes%line(1)%text, 'a, b', 'a note')
+      call check_text(rows(1)%notes%line(2)%text//rows(2)%notes%line(1)%text, '', 'no note')
+      call check_text(trim(adjustl(rows(2)%notes%line(2)%text)), '1.10', 'a note as it stands')
+      call write_file('notes.csv', 'mechanism,height,thickness,notice,X-1'//lf//'one_sided,2,0.3,,'//lf)
+      call read_population(scratch//'/notes.csv', rows, error)
+      call check_error(error, 'notes.csv: column ''notice'': no such column', 'no note')
+      call check_error(error, 'one that is only kept begins with x_ or note', 'what is kept')
    end subroutine test_population
 
    !> The echo of a case is a case with the same echo
@@ -572,8 +584,8 @@ contains
          call check(rows == table%rows .and. rows > 0, 'as many rows')
       end do
       associate (column => table%columns)
-         call check(column(1)%kind == text_column .and. column(1)%text(:column(1)%length) == repeat('it''s'//lf, table%rows), &
-            & 'texts, each ended')
+         call check(column(1)%kind == text_column .and. column(1)%text(:column(1)%length) == 'it''s'//lf, 'texts, each ended')
+         call check(column(1)%words == 1 .and. all(column(1)%number(:table%rows) == 1.0_wp), 'texts that differ')
          call check(column(12)%kind == real_column, 'numbers')
          call check_close(column(12)%number(1), 0.9_wp, 0.0_wp, 'the threshold of the curve')
       end associate
@@ -598,6 +610,40 @@ contains
       call odd%end_row()
       call check(.not. odd%is_regular, 'a column too many, and another kind')
    end subroutine test_tables
+
+   !> Texts that differ are kept once, whatever the number of rows: more than 2**31 bytes of them in all
+   subroutine test_texts()
+      integer, parameter :: rows = 2150000
+      character(len=1000) :: long(2)
+      type(columns_type) :: table
+      integer :: i
+
+      call suite('texts')
+      long = [repeat('a', 999)//'b', repeat('a', 999)//'c']
+      do i = 1, rows
+         call table%put('record', long(1 + modulo(i/7, 2)))
+         call table%end_row()
+      end do
+      call check(.not. allocated(table%error) .and. table%rows == rows, 'two billion characters')
+      associate (column => table%columns(1))
+         call check(column%words == 2 .and. len(column%text) < 10000, 'texts that differ')
+         do i = 1, rows
+            if (nint(column%number(i)) /= 1 + modulo(i/7, 2)) exit
+         end do
+         call check(i > rows, 'which of them each row has')
+      end associate
+      table = columns_type()
+      do i = 1, 3000
+         call table%put('name', 'wall'//repeat(' ', modulo(i, 3))//to_text(i/3))
+         call table%put('other', repeat(' ', modulo(i, 3)))
+         call table%end_row()
+      end do
+      associate (column => table%columns)
+         call check(column(1)%words == 3000 .and. index(column(1)%text, lf//'wall  5'//lf) > 0, 'each of its own')
+         ! The index does not tell them apart: those that it does not know are kept once more.
+         call check(index(column(2)%text, ' '//lf//'  '//lf//lf) == 1 .and. column(2)%number(4) == 1.0_wp, 'blanks differ')
+      end associate
+   end subroutine test_texts
 
    !> A file that must be refused
    subroutine check_refused(content, part)

@@ -5,7 +5,7 @@ program test_damaged_files
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
    use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_record_reader, only : read_records
+   use dondolo_records_record_reader, only : read_records
    use small_files, only : list_contents, sample_type, smtk_content, write_file
    implicit none
 
@@ -38,9 +38,8 @@ contains
             end if
             if (i == k .or. all(i)%format == all(k)%format) then
                call check_ok(error, all(i)%format//' as itself')
-            else if (all(k)%format == 'columns' .and. any(all(i)%format == [character(len=5) :: 'cwa', 'dyna', &
-               & 'eqsig'])) then
-               ! Their headers are lines of words to the other, which knows less of them
+            else if (all(k)%format == 'columns' .and. all(i)%format == 'eqsig') then
+               ! Its header is a line of words, and one of count and step, to the other
                call check(.not. allocated(error), all(i)%format//' as columns')
             else
                call check(allocated(error), all(i)%format//' as '//all(k)%format//' is refused')
@@ -53,7 +52,7 @@ contains
             & records(1)%metadata%get('format'), all(i)%format, 'format')
       end do
       call read_records(scratch//'/content.dat', records, error, format='EQSIG', units='g')
-      call check_error(error, 'must be the number of values and their step', 'upper case')
+      call check_error(error, '# Origin Time, 2031/12/31 23:59:00'' is no statement that is read', 'upper case')
       call read_records(scratch//'/content.dat', records, error, format='excel')
       call check_error(error, 'content.dat: format = ''excel'': must be one of ''peer'', ''dyna''', 'no such format')
       call write_file(scratch//'/content.dat', 'SAMPLING_INTERVAL_S: 0.01'//lf//smtk_content())

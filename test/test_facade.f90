@@ -134,7 +134,7 @@ contains
       call check_close(one%mechanism%restitution, other%mechanism%restitution, exact, what//': restitution')
    end subroutine check_same
 
-   !> Lists with one value for all, words for each, offsets, springs and beds
+   !> Lists with one value for all, words for each, offsets, springs and distributed springs
    subroutine test_lists()
 
       type(wall_input_type) :: input
@@ -153,10 +153,10 @@ contains
       call input%set('spring', [1.0e3_wp])
       call input%set('spring_depth', [0.2_wp])
       call input%set('spring_height', [3.0_wp])
-      call input%set('bed', [1.0e3_wp, 2.0e3_wp])
-      call input%set('bed_depth', [0.2_wp])
-      call input%set('bed_bottom', [0.0_wp, 3.0_wp])
-      call input%set('bed_top', [4.0_wp, 6.0_wp])
+      call input%set('distributed_spring', [1.0e3_wp, 2.0e3_wp])
+      call input%set('distributed_spring_depth', [0.2_wp])
+      call input%set('distributed_spring_bottom', [0.0_wp, 3.0_wp])
+      call input%set('distributed_spring_top', [4.0_wp, 6.0_wp])
       call input%set('hinge_level', [4.0_wp])
       wall = made(input)
       associate (above => wall%input)
@@ -171,9 +171,9 @@ contains
          call check_list(above%list('inertia_mass'), [200.0_wp], 'masses')
          call check_list(above%list('inertia_height'), [2.0_wp], 'their heights')
          call check(.not. above%has('spring') .and. .not. above%has('spring_height'), 'no spring is left')
-         call check_list(above%list('bed'), [2.0e3_wp], 'beds')
-         call check_list(above%list('bed_bottom'), [0.0_wp], 'a bed is cut')
-         call check_list(above%list('bed_top'), [2.0_wp], 'its top')
+         call check_list(above%list('distributed_spring'), [2.0e3_wp], 'distributed_springs')
+         call check_list(above%list('distributed_spring_bottom'), [0.0_wp], 'a bed is cut')
+         call check_list(above%list('distributed_spring_top'), [2.0_wp], 'its top')
       end associate
       call input%set('hinge_level', [7.5_wp])
       wall = made(input)

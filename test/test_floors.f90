@@ -9,13 +9,14 @@ program test_floors
    use dondolo_building, only : building_type, diaphragm_type
    use dondolo_building_floor_motion, only : filter_record
    use dondolo_building_floors, only : check_floor, floors_type
-   use dondolo_building_input, only : building_properties, new_building
+   use dondolo_building_input, only : building_properties, new_building, period_of_displacement, proposed_period
    use dondolo_record, only : new_record, record_type
    use dondolo_record_suite, only : new_suite, suite_type
    implicit none
 
    real(wp), parameter :: exact = 1.0e-12_wp
 
+   call test_periods()
    call test_values()
    call test_limits()
    call test_convergence()
@@ -58,6 +59,37 @@ contains
       call filter_record(building_of([period], [damping], [participation], refine), ground, floor, error)
       call check_ok(error, 'floor')
    end function floor_of
+
+   !> Periods of the first mode by the code, against an independent computation of 40 digits; a displacement gives the period
+   subroutine test_periods()
+      real(wp), parameter :: heights(3) = [6.0_wp, 9.0_wp, 12.5_wp], &
+         & expected(3) = [0.191682931273882_wp, 0.259807621135332_wp, 0.332393493559062_wp], &
+         & top = 0.02_wp, of_top = 0.282842712474619_wp
+      type(group_settings_type) :: settings
+      type(problems_type) :: problems
+      type(building_type) :: building, again
+      integer :: i
+
+      call suite('periods')
+      do i = 1, size(heights)
+         call check_close(proposed_period(heights(i)), expected(i), exact, '0.05 H^0.75')
+      end do
+      call check_close(period_of_displacement(top), of_top, exact, '2 sqrt(d)')
+      call new_settings(settings, building_properties)
+      call settings%set('top_displacement', top)
+      call settings%set('participation', [1.2_wp])
+      call settings%fill()
+      call check_settings(settings, problems)
+      call new_building(building, settings, problems)
+      call check(problems%count == 0, 'building of a displacement')
+      call check_close(building%period(1), of_top, exact, 'its period')
+      ! Settings that have been filled are taken again, and a period of another building is not
+      call new_building(again, settings, problems)
+      call check(problems%count == 0, 'its own period')
+      call settings%set('period', [0.3_wp])
+      call new_building(again, settings, problems)
+      call check(problems%count == 1, 'a period and a displacement')
+   end subroutine test_periods
 
    !> Values of an independent computation, to 15 digits
    subroutine test_values()

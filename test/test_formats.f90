@@ -1,22 +1,22 @@
 !> Formats of accelerogram files: channels, metadata, what is refused.
 program test_formats
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : pi, wp
    use dondolo_base_limits, only : longest_case
    use dondolo_base_lines, only : lines_type
    use dondolo_base_numbers, only : parse_printed
    use dondolo_base_text, only : to_text
-   use dondolo_base_text_file, only : read_text_file, text_file_type
+   use dondolo_files_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_files_text_file, only : read_text_file, text_file_type
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_catalogue, only : read_catalogue
-   use dondolo_record_dates, only : find_moment, make_stamp
-   use dondolo_record_format, only : read_fixed
    use dondolo_record_metadata, only : metadata_type
-   use dondolo_record_reader, only : read_record, read_records
-   use dondolo_record_reading_notes, only : list_reading_notes
-   use dondolo_record_table, only : find_problems, record_table
+   use dondolo_records_catalogue, only : read_catalogue
+   use dondolo_records_dates, only : find_moment, make_stamp
+   use dondolo_records_reading_notes, only : list_reading_notes
+   use dondolo_records_format, only : block_type, read_fixed
+   use dondolo_records_record_reader, only : read_record, read_records
+   use dondolo_records_record_table, only : find_problems, record_table
    use small_files, only : afad_content, asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
       & nied_content, peer_content, small, smtk_content, write_file
    implicit none
@@ -151,28 +151,28 @@ contains
       call suite('fixed width')
       call write_file(scratch//'/fixed.txt', 'head'//lf//' 1.5-2.25  3.'//cr//lf//'1e-2 -1.0   '//lf//'tail')
       call read_text_file(scratch//'/fixed.txt', text, error, longest_case)
-      call read_fixed(text, 2, 3, 5, 3, values, error)
+      call read_fixed(text, block_type(2, 3, 5, 3), values, error)
       call check_error(error, ': line 2: value 1 of 3 = '' 1.5-'': must be a number in column 1 of width 5', &
          & 'wrong width')
       call write_file(scratch//'/fixed.txt', 'head'//lf//'  1.5-2.25   3.'//cr//lf//' 1e-2 -1.0   '//lf//'tail')
       call read_text_file(scratch//'/fixed.txt', text, error, longest_case)
-      call read_fixed(text, 2, 5, 5, 3, values, error)
+      call read_fixed(text, block_type(2, 5, 5, 3), values, error)
       call check_ok(error, 'touching columns')
       call check(size(values) == 5, 'five')
       call check(all(abs(values - [1.5_wp, -2.25_wp, 3.0_wp, 0.01_wp, -1.0_wp]) < 1.0e-15_wp), 'their values')
-      call read_fixed(text, 2, 4, 5, 3, values, error)
+      call read_fixed(text, block_type(2, 4, 5, 3), values, error)
       call check_error(error, ': line 3: text after value 4 of 4: '' -1.0   ''', 'one too many')
-      call read_fixed(text, 2, 6, 5, 3, values, error)
+      call read_fixed(text, block_type(2, 6, 5, 3), values, error)
       call check_error(error, ': line 3: value 6 of 6 = ''   '': must be a number', 'one too few')
-      call read_fixed(text, 2, 7, 5, 3, values, error)
+      call read_fixed(text, block_type(2, 7, 5, 3), values, error)
       call check_error(error, ': line 3: value 6 of 7', 'a line that is not full')
-      call read_fixed(text, 4, 2, 4, 3, values, error)
+      call read_fixed(text, block_type(4, 2, 4, 3), values, error)
       call check_error(error, ': line 4: value 1 of 2 = ''tail''', 'a word')
-      call read_fixed(text, 2, 2000000000, 5, 3, values, error)
+      call read_fixed(text, block_type(2, 2000000000, 5, 3), values, error)
       call check_error(error, 'must be a number', 'a count beyond the file')
       call write_file(scratch//'/fixed.txt', '    1    2')
       call read_text_file(scratch//'/fixed.txt', text, error, longest_case)
-      call read_fixed(text, 1, 4, 5, 2, values, error)
+      call read_fixed(text, block_type(1, 4, 5, 2), values, error)
       call check_error(error, ': line 1: the file ends after 2 values: the header states 4', 'end of the file')
    end subroutine test_fixed
 
@@ -182,24 +182,27 @@ contains
       type(record_type) :: record
       type(error_type), allocatable :: error
       character(len=:), allocatable :: file
+      character(len=*), parameter :: all = 'time,acceleration,acceleration,acceleration'
 
       call suite('several columns')
       file = scratch//'/three.txt'
-      call write_file(file, columns_content('#Station: TLM'//lf//'time (s),N-S (g), "E-W (gal)",V'//lf))
+      call write_file(file, columns_content('#Station: TLM'//lf//'time (s),N-S (g), "E-W (gal)",V (g)'//lf))
       call read_records(file, records, error, units='g')
       call check_error(error, 'three.txt: units = ''g'': the file states ''gal''', 'units that differ')
       call write_file(scratch//'/three.txt', columns_content('#Station: TLM'//lf//'time (s),N-S (g), "E-W (g)",V'//lf))
       call read_records(file, records, error, units='g')
       call check_ok(error, 'all')
       if (allocated(error)) return
-      call check(size(records) == 3, 'three channels')
+      call check(size(records) == 2, 'two channels, and a title that says nothing of accelerations')
       call check_text(records(2)%name, 'three.E-W_(g)', 'name')
       call check_text(records(2)%metadata%get('channel'), 'E-W (g)', 'channel')
       call check_text(records(2)%metadata%get('station'), 'TLM', 'station')
       call check_text(records(2)%metadata%get('format'), 'columns', 'format')
       call check_text(records(2)%metadata%get('quantity'), 'acceleration', 'quantity')
+      call check_text(records(2)%metadata%get('reading'), 'column 4, titled ''V'', is not read', 'what is not read')
       call check_values(records(1), 9.80665_wp, 'column 2')
       call check_values(records(2), -2*9.80665_wp, 'column 3')
+      call write_file(scratch//'/three.txt', columns_content('time (s),N-S (g), "E-W (g)",acc V'//lf))
       call read_records(file, records, error)
       call check_error(error, 'three.txt: the file does not state its units', 'units of one are missing')
       call read_record(file, record, error, channel='n-s (g)')
@@ -207,17 +210,33 @@ contains
       call check_values(record, 9.80665_wp, 'by name')
       call write_file(scratch//'/three.txt', columns_content(''))
       call read_record(file, record, error, units='g')
+      call check_error(error, 'three.txt: line 1: 4 columns without titles of accelerations, or values along the rows: '// &
+         & 'a row of a catalogue must say what the file holds', 'columns that may be anything')
+      call read_record(file, record, error, units='g', columns='time, acceleration,acceleration , Acceleration')
       call check_error(error, 'three.txt: the file has 3 channels: channel must be one of ''column 2'', '// &
          & '''column 3'', ''column 4''', 'no channel')
-      call read_record(file, record, error, units='g', channel='column 3')
+      call read_records(file, records, error, units='g', columns='time,other,acceleration,other')
+      call check_ok(error, 'one of three')
+      if (allocated(error)) return
+      call check(size(records) == 1, 'the one that is said to be accelerations')
+      call check_values(records(1), -2*9.80665_wp, 'one of three')
+      call read_record(file, record, error, units='g', columns='time,acceleration')
+      call check_error(error, 'three.txt: line 7: no line of values as columns = ''time,acceleration'' says', 'too few words')
+      call read_record(file, record, error, columns='time,acceleration')
+      call check_error(error, 'three.txt: line 1: 4 values: columns = ''time,acceleration'' is for 2', 'too few words')
+      call read_record(file, record, error, units='g', columns='time,acceleration,velocity,other')
+      call check_error(error, 'columns = ''time,acceleration,velocity,other'': must be ''rows''', 'a word that is not known')
+      call read_record(file, record, error, units='g', columns='time,time,acceleration,other')
+      call check_error(error, 'and at most one time', 'two times')
+      call read_record(file, record, error, units='g', columns=all, channel='column 3')
       call check_values(record, -2*9.80665_wp, 'column 3')
-      call read_record(file, record, error, units='g', channel=' 2 ')
+      call read_record(file, record, error, units='g', columns=all, channel=' 2 ')
       call check_values(record, -2*9.80665_wp, 'second channel')
       call check_text(record%name, 'three.column_3', 'name')
-      call read_record(file, record, error, units='g', channel='4')
+      call read_record(file, record, error, units='g', columns=all, channel='4')
       call check_error(error, 'three.txt: channel = ''4'': must be one of ''column 2'', ''column 3'', '// &
          & '''column 4'', or a number from 1 to 3', 'fourth channel')
-      call read_record(file, record, error, units='g', channel='up')
+      call read_record(file, record, error, units='g', columns=all, channel='up')
       call check_error(error, 'channel = ''up'': must be one of', 'no such name')
       call write_file(scratch//'/three.txt', '1'//lf//'2'//lf//'3')
       call read_record(file, record, error, units='g', dt=0.01_wp, channel='1')
@@ -225,20 +244,20 @@ contains
       call check_text(record%name, 'three', 'its name')
       call read_record(file, record, error, units='g', dt=0.01_wp, channel='2')
       call check_error(error, 'channel = ''2'': must be one of ''1''', 'no other channel')
-      call write_file(scratch//'/three.txt', 'a,b (cm/s)'//lf//'0,1'//lf//'0.01,2'//lf)
+      call write_file(scratch//'/three.txt', 't,b (cm/s)'//lf//'0,1'//lf//'0.01,2'//lf)
       call read_record(file, record, error)
       call check_error(error, 'three.txt: line 1: channel ''b (cm/s)'' is not an acceleration', 'velocities by their title')
-      call write_file(file, 't,2,2'//lf//'0,1,4'//lf//'0.01,2,5'//lf)
-      call read_record(file, record, error, units='m/s2', channel='2')
-      call check_close(record%pga(), 2.0_wp, 0.0_wp, 'a name goes before a number')
-      call read_record(file, record, error, units='m/s2', channel='2 (2)')
-      call check_close(record%pga(), 5.0_wp, 0.0_wp, 'a name that is a duplicate gets its number')
-      call write_file(scratch//'/three.txt', 'a,b (N/S)'//lf//'0,1'//lf//'0.01,2'//lf)
+      call write_file(file, 't,2 (g),2 (g)'//lf//'0,1,4'//lf//'0.01,2,5'//lf)
+      call read_record(file, record, error, channel='2 (g)')
+      call check_close(record%pga(), 2.0_wp*9.80665_wp, 0.0_wp, 'a name goes before a number')
+      call read_record(file, record, error, channel='2 (g) (2)')
+      call check_close(record%pga(), 5.0_wp*9.80665_wp, 0.0_wp, 'a name that is a duplicate gets its number')
+      call write_file(scratch//'/three.txt', 't,acc (N/S)'//lf//'0,1'//lf//'0.01,2'//lf)
       call read_record(file, record, error)
       call check_error(error, 'units = ''N/S'': must be one of', 'brackets that hold no units')
       call read_record(file, record, error, units='g')
       call check_error(error, 'units = ''N/S'': must be one of', 'brackets that hold no units, units given')
-      call write_file(scratch//'/three.txt', repeat('x', 200)//' 1'//lf//'0 1'//lf//'0.01 2'//lf)
+      call write_file(scratch//'/three.txt', 't acc_'//repeat('x', 200)//lf//'0 1'//lf//'0.01 2'//lf)
       call read_record(file, record, error, units='g', format='columns')
       call check_ok(error, 'a long title')
       call write_file(scratch//'/three.txt', '0 '//repeat('1', 200)//'x'//lf//'0.01 2'//lf)
@@ -246,9 +265,10 @@ contains
       call check_error(error, 'value '''//repeat('1', 60)//'...'': must be a number', 'a long word is cut')
       call write_file(scratch//'/three.txt', '0'//repeat(' 1', 63)//lf//'1'//repeat(' 1', 63)//lf)
       call read_record(file, record, error)
-      call check_error(error, 'the format is not known', 'sixty-four columns')
-      call read_record(file, record, error, format='columns')
-      call check_error(error, ': line 1: more than 63 columns', 'sixty-four columns')
+      call check_error(error, ': line 2: more than 63 columns', 'sixty-four columns')
+      call read_record(file, record, error, units='g', dt=0.01_wp, columns='rows')
+      call check_ok(error, 'sixty-four values in a row')
+      call check(size(record%acceleration) == 128, 'values along the rows')
    end subroutine test_columns
 
    !> A duration that is not that of the values
@@ -280,8 +300,8 @@ contains
       call check_error(error, 'units = ''g'': the file states ''cm/s2''', 'units that differ from the comment')
       call read_record(file, record, error, dt=0.01_wp)
       call check_error(error, 'dt = 0.01: the file states 0.02', 'a step that differs from the comment')
-      call check_refused('# units: g'//lf//'# dt: x'//lf//values, 'the comment dt = ''x'': must be a positive number')
-      call check_refused('# units: g'//lf//'# dt: 0.02'//lf//timed, 'a comment states dt = 0.02')
+      call check_refused('# units: g'//lf//'# dt: x2'//lf//values, 'line 2: ''dt: x2'' is no statement that is read')
+      call check_refused('# units: g'//lf//'# dt: 0.02'//lf//timed, 'the file states dt = 0.02')
       call read_content('t [s],a [cm/s^2]'//lf//timed, record)
       call check_close(maxval(record%acceleration), 0.02_wp, 1.0e-14_wp, 'square brackets')
       call read_content('t,a (m s-2)'//lf//timed, record)
@@ -291,10 +311,11 @@ contains
       call check_refused('time (ms),a (g)'//lf//timed, 'line 1: title ''time (ms)'' of the times: they must be in s')
       call check_refused('time_min,a (g)'//lf//timed, 'line 1: title ''time_min'' of the times')
       call check_refused('Period,a (g)'//lf//timed, 'line 1: title ''Period'' of the times')
+      call check_refused('Period (s),a (g)'//lf//timed, 'line 1: title ''Period (s)'' of the times')
       call check_refused('t,Sa (g)'//lf//timed, 'line 1: channel ''Sa (g)'' is not an acceleration')
       call check_refused('t,x (cm)'//lf//timed, 'line 1: channel ''x (cm)'' is not an acceleration')
       call check_refused('t,x (m/sec)'//lf//timed, 'line 1: channel ''x (m/sec)'' is not an acceleration')
-      call check_refused('t,a (g)'//lf//'0,1'//lf//'2,1'//lf, 'time step 2 s: must be at most 1 s')
+      call check_refused('t,a (g)'//lf//'0,1'//lf//'2,1'//lf, 'column 1 increases by 2: must be times in s')
       call write_file(file, columns_content('time (s),acceleration (g),velocity (cm/s),displacement'//lf))
       call read_records(file, records, error)
       call check_ok(error, 'three quantities')
@@ -794,6 +815,9 @@ contains
       call new_record(records(3), wave, 0.0001_wp, 'quick', error)
       call find_problems(records(3), 10.0_wp, problems)
       call check_text(problems, 'PGV / PGA = 0.0006346 s, less than 0.015 s: wrong time step?', 'too quick')
+      call records(3)%metadata%set('motion', 'Shake table')
+      call find_problems(records(3), 10.0_wp, problems)
+      call check_text(problems, '', 'as quick, but of a shake table')
       call new_record(records(3), 0.005_wp*wave, 0.01_wp, 'nothing', error)
       call records(1)%metadata%set('event', 'Friuli')
       call records(1)%metadata%set('station', 'TLM'//achar(27))
@@ -805,7 +829,7 @@ contains
       call check_text(table%line(2)%text, '                                s         s          g      cm/s', 'units')
       call check_text(table%line(3)%text(:64), '    1  wave         401   0.01000      4.00     0.1000      6.35', &
          & 'numbers')
-      call check_text(table%line(3)%text(65:), '  Friuli, TLM\x1b', 'event and station, the escape character made visible')
+      call check_text(table%line(3)%text(65:), '  Friuli, TLM', 'event and station, without the escape character')
       call check_text(table%line(4)%text(65:89), '  1976-05-06      begins ', 'date where there is no event')
       call new_record(records(3), wave, 0.01_wp, repeat('x', 17)//'è'//repeat('y', 9)//'è'//repeat('z', 18), error)
       table = record_table(records(3:3), 10.0_wp)
@@ -859,7 +883,8 @@ contains
          call table%get_real(row, table%column('pga_m_s2'), pga, error)
          call table%get_real(row, table%column('npts'), npts, error)
          if (index(file, 'multi_column') > 0) then
-            call read_record(folder//'/'//file, record, error, units='g', channel=channel)
+            call read_record(folder//'/'//file, record, error, units='g', channel=channel, &
+               & columns='time,acceleration,acceleration,acceleration')
          else
             call read_record(folder//'/'//file, record, error, channel=channel)
          end if

@@ -400,7 +400,7 @@ contains
       call check(maxval(abs(changes)) < 1.0e-12_wp, 'equal clusters')
       do g = 1, 10
          by_cluster(:, :, g) = by_cluster(:, :, g)*(1.0_wp + 0.03_wp*real(g - 5, wp))
-         of_cluster(:, g) = of_cluster(:, g)*(1.0_wp + 0.01_wp*real(g*g - 30, wp))
+         of_cluster(:, g) = of_cluster(:, g)*(1.0_wp + 0.01_wp*real(g*g + 10, wp))
       end do
       call fit_ordinal(curves(:1), x, sum(by_cluster(:, 3:3, :), 3), sum(of_cluster, 2), error)
       call check_ok(error, 'one state')

@@ -12,9 +12,9 @@ program test_intensity
    use dondolo_record_ground_motion, only : ground_displacement, ground_velocity
    use dondolo_record_intensity, only : im_names, measure_type, new_measure
    use dondolo_record_random, only : new_random, random_type
-   use dondolo_record_reader, only : read_record
    use dondolo_record_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_record_suite, only : suite_type
+   use dondolo_records_record_reader, only : read_record
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use stripe_runs, only : run_stripes, suite_of
    implicit none

@@ -64,11 +64,11 @@ contains
          call input%set('spring', [5.0e4_wp])
          call input%set('spring_depth', [0.0_wp])
          call input%set('spring_height', [3.0_wp])
-      case ('bed')
-         call input%set('bed', [2.0e4_wp])
-         call input%set('bed_depth', [0.25_wp])
-         call input%set('bed_bottom', [0.0_wp])
-         call input%set('bed_top', [3.0_wp])
+      case ('distributed_spring')
+         call input%set('distributed_spring', [2.0e4_wp])
+         call input%set('distributed_spring_depth', [0.25_wp])
+         call input%set('distributed_spring_bottom', [0.0_wp])
+         call input%set('distributed_spring_top', [3.0_wp])
       case ('hinge')
          call input%set('hinge_depth', 0.02_wp)
       case ('edge')
@@ -171,7 +171,8 @@ contains
       call check_terms('pushed', 0.03_wp, [9492.17165240542_wp, 153.081271894619_wp, 3831.49014727031_wp, &
          & 1058.82449859671_wp, -849.347552985858_wp])
       call check_terms('spring', 0.03_wp, [4078.125_wp, 0.0_wp, 2029.15055900087_wp, 1058.82449859671_wp, -13491.901457875_wp])
-      call check_terms('bed', 0.03_wp, [4078.125_wp, 0.0_wp, 2029.15055900087_wp, 1058.82449859671_wp, -5427.17480757054_wp])
+      call check_terms('distributed_spring', 0.03_wp, &
+         & [4078.125_wp, 0.0_wp, 2029.15055900087_wp, 1058.82449859671_wp, -5427.17480757054_wp])
       call check_terms('hinge', 0.03_wp, [4071.915_wp, 0.0_wp, 2028.3406804954_wp, 794.073681157618_wp, 0.0_wp])
       call check_terms('edge', 0.0_wp, [4071.915_wp, 2.835_wp, 2025.0_wp, 1390.5675_wp, 0.0_wp])
       call check_terms('edge', 0.03_wp, [4072.04911318337_wp, 1.63510415758665_wp, 2028.35282958418_wp, &
@@ -252,8 +253,8 @@ contains
 
    !> C = J'/2 and G - Q = V', by differences of high order
    subroutine test_energy()
-      character(len=*), parameter :: names(11) = [character(len=12) :: 'dead', 'both', 'vertical', 'pushed', 'thrust', &
-         & 'spring', 'bed', 'edge', 'edge thrust', 'roof', 'gable']
+      character(len=*), parameter :: names(11) = [character(len=18) :: 'dead', 'both', 'vertical', 'pushed', 'thrust', &
+         & 'spring', 'distributed_spring', 'edge', 'edge thrust', 'roof', 'gable']
       real(wp), parameter :: weights(4) = [0.8_wp, -0.2_wp, 4.0_wp/105.0_wp, -1.0_wp/280.0_wp]
       type(wall_input_type) :: input
       type(wall_type) :: wall
@@ -264,7 +265,7 @@ contains
       do m = 1, size(names)
          input = a_case(trim(names(m)))
          if (input%has('thrust')) call input%set('thrust_decay', [0.05_wp])
-         if (names(m) == 'spring' .or. names(m) == 'bed') call input%set('edge_radius', 0.03_wp)
+         if (names(m) == 'spring' .or. names(m) == 'distributed_spring') call input%set('edge_radius', 0.03_wp)
          wall = made(input)
          do i = 1, 9
             q = 0.1_wp*real(i, wp)*min(wall%mechanism%capacity, 0.2_wp)
@@ -397,8 +398,8 @@ contains
 
    !> What tends to nothing tends to the bare wall, and lanes takes all smooth walls
    subroutine test_limits()
-      character(len=*), parameter :: names(11) = [character(len=12) :: 'dead', 'both', 'vertical', 'pushed', 'thrust', &
-         & 'bed', 'hinge', 'edge', 'edge thrust', 'roof', 'gable']
+      character(len=*), parameter :: names(11) = [character(len=18) :: 'dead', 'both', 'vertical', 'pushed', 'thrust', &
+         & 'distributed_spring', 'hinge', 'edge', 'edge thrust', 'roof', 'gable']
       type(wall_input_type) :: input
       type(wall_type) :: bare, wall
       type(normal_form_type) :: form
@@ -554,7 +555,8 @@ contains
       call refuse(input, 'load = -5: must lie between 0 and 1e9 N/m')
       input = a_case('dead')
       call input%set('mechanism', 'two_block')
-      call refuse(input, 'load = 10000: only for mechanism = ''one_sided'' or ''free_standing''')
+      call input%set('load_seat', [0.15_wp])
+      call refuse(input, 'load_seat = 0.15: only for mechanism = ''one_sided'' or ''free_standing''')
    end subroutine test_wrong_input
 
    !> Two things of a kind with one height between them

@@ -1,8 +1,8 @@
 !> Tests of the index of names: a name is known if and only if it was added, however many there are.
 program test_name_index
    use checks, only : check, finish, suite
-   use dondolo_base_name_index, only : name_index_type
    use dondolo_base_text, only : to_text
+   use dondolo_files_name_index, only : name_index_type
    implicit none
 
    call test_few()

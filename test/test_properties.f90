@@ -8,7 +8,8 @@ program test_properties
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : check_number, check_word, choices_length, find_property, has_owner, hint_of, is_integer, &
-      & is_list, is_logical, is_many, is_number_or_name, is_text, is_words, no_limit, number_of_choices, property_type
+      & is_list, is_logical, is_many, is_number_or_name, is_text, is_words, no_limit, number_of_choices, number_of_words, &
+      & property_type, word_of
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_base_text, only : to_text
    use dondolo_case_echo, only : echo_type
@@ -61,12 +62,20 @@ contains
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
             call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
-               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'rad/s', 'kg m/m', 'N m/m', '1/s2', 'year']), what//': its unit')
+               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'rad/s', 'kg m/m', 'N m/m', '1/s2', 'year', 'deg']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
                call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
             end if
             call check(property%smallest <= property%largest, what//': a range')
+            call check(len_trim(property%not_with) > 0 .or. len_trim(property%because) == 0, what//': a reason for nothing')
+            do m = 1, number_of_words(property%not_with)
+               call check(property%optional, what//': optional')
+               associate (other => find_property(table, trim(word_of(property%not_with, m))))
+                  call check(other > 0 .and. other /= i, what//': not with a property of the table')
+                  if (other > 0) call check(table(other)%optional, what//': not with one that is optional')
+               end associate
+            end do
             if (number_of_choices(property%choices) > 0) call check(any(property%kind == [is_text, is_words]), &
                & what//': choices of a text')
             do m = 1, number_of_choices(property%owners)
@@ -139,13 +148,14 @@ contains
       call hint('load', 8.5_wp, 'is it in kN/m?')
       call hint('thrust', 1.2_wp, 'is it in kN/m?')
       call hint('spring', 45.0_wp, 'is it in kN/m2?')
-      call hint('bed', 25.0_wp, 'is it in kN/m3?')
+      call hint('distributed_spring', 25.0_wp, 'is it in kN/m3?')
       call hint('mass', 1.4_wp, 'is it in t/m?')
       call hint('inertia_mass', 0.7_wp, 'is it in t/m?')
       call hint('hinge_inertia', 4.1_wp, 'is it in t m2/m?')
       call hint('density', 17.5_wp, 'is it in kN/m3 or t/m3?')
       call hint('interlock_friction', 30.0_wp, 'is it an angle, or in per cent?')
       call hint('hinge', 60.0_wp, 'is it in per cent?')
+      call hint('wedge_angle', 0.35_wp, 'is it in radians?')
       call hint('restitution_value', 88.0_wp, 'is it in per cent?')
       call hint('restitution_factor', 87.0_wp, 'is it in per cent?')
       call hint('section_fill', 80.0_wp, 'is it in per cent?')
@@ -228,6 +238,8 @@ contains
       character(len=*), intent(in) :: name, text
       type(property_type), intent(in) :: table(:), property
 
+      character(len=*), parameter :: of_place(3) = [character(len=12) :: 'latitude', 'longitude', 'nominal_life'], &
+         & of_hazard(3) = [character(len=7) :: 'ag', 'f0', 'tc_star']
       character(len=:), allocatable :: other
       integer :: i, unit
 
@@ -235,10 +247,17 @@ contains
       write (unit, '(a)') '&'//name
       write (unit, '(a)') trim(property%name)//' = '//text
       do i = 1, size(table)
-         if (.not. table(i)%required .or. table(i)%name == property%name) cycle
+         if (table(i)%name == property%name) cycle
+         ! A check has a hazard, or a place, which has those of all limit states
+         if (name == 'check' .and. (any(property%name == of_place) .or. property%name == 'ultimate_state')) then
+            if (.not. any(table(i)%name == of_place)) cycle
+         else if (.not. table(i)%required .and. .not. (name == 'check' .and. any(table(i)%name == of_hazard))) then
+            cycle
+         end if
          call make_value(table(i), other)
          write (unit, '(a)') trim(table(i)%name)//' = '//other
       end do
+      if (property%name == 'building_damping') write (unit, '(a)') 'building_period = 0.3'
       if (any(property%name == [character(len=8) :: 'first', 'last', 'count'])) then
          if (property%name /= 'first') write (unit, '(a)') 'first = 0.1'
          if (property%name /= 'last') write (unit, '(a)') 'last = 4'
@@ -297,16 +316,19 @@ contains
          ! One for all limit states
          if (any(property%name == [character(len=8) :: 'ag', 'tc_star'])) text = '0.25'
          if (property%name == 'f0') text = '2.5'
+         if (index(property%name, 'building_') == 1) text = '0.15'
          if (property%name == 'exceedance') text = '0.6, 0.3, 0.2'
       case (is_integer, is_number_or_name)
          text = '3'
          ! As many as the indices of one property need
-         if (property%name == 'samples') text = '60'
+         if (property%name == 'variants') text = '60'
          if (property%name == 'sides') text = '2'
       case default
          text = to_text(0.9_wp*property%default + 0.1_wp*min(property%largest, 2.0_wp*property%default + 1.0_wp))
          if (property%required .or. property%optional) text = '0.2'
          if (property%name == 'masonry_knowledge_factor') text = '1.2'
+         if (property%name == 'latitude') text = '43.5'
+         if (property%name == 'longitude') text = '12.5'
          ! A speed ratio must stay below 1
          if (property%name == 'restitution_factor') text = '0.8'
          ! The hinge must lie in the wall
@@ -419,7 +441,7 @@ contains
             ! What a wall that rocks to both sides carries stands in its middle: test_loaded_block
             if (what == 'mechanism' .or. (is_beyond_bare(i) .and. mechanism_names(m) == 'free_standing')) cycle
             ! Readers put what is in the file in its place
-            if (what == 'table') cycle
+            if (any(what == [character(len=7) :: 'table', 'bodies', 'joints', 'actions'])) cycle
             call make_value(table(i), text)
             if (what == 'restitution') text = '''default'''
             call write_group('wall', table(:0), table(i), text)
@@ -429,6 +451,7 @@ contains
             call check_ok(error, what)
             call input%set('mechanism', trim(mechanism_names(m)))
             if (has_owner(table(i), trim(mechanism_names(m))) .and. (mechanism_names(m) == 'one_sided' .or. &
+               & (mechanism_names(m) == 'two_block' .and. is_beyond_bare(i) .and. what /= 'hinge') .or. &
                & any(what == [character(len=12) :: 'overburden', 'stress_block']))) call complete(input, what)
             do j = 1, size(table)
                if (input%has('section_height') .and. any(table(j)%name == [character(len=9) :: 'height', 'thickness'])) cycle
@@ -436,8 +459,10 @@ contains
                   & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
             end do
             if (mechanism_names(m) == 'tabulated') call complete_table(input)
+            if (mechanism_names(m) == 'chain') call complete_chain(input)
             ! Less than walls of each mechanism allow, and what its seed is for
             if (index(what, 'restitution_s') == 1) call input%set('restitution_sd', 0.02_wp)
+            if (what == 'elastic_damping' .and. mechanism_names(m) == 'two_block') call input%set('elastic_period', 0.05_wp)
             if (what == 'bearing') call input%set('bearing', 'centre')
             if (what == 'bearing_distance') call input%set('bearing', 'inner')
             call new_wall(wall, input, error)
@@ -465,12 +490,32 @@ contains
       call input%set('inertia', spread(1000.0_wp, 1, size(q)))
       call input%set('lever', spread(500.0_wp, 1, size(q)))
       call input%set('moment', 800.0_wp - 1.0e4_wp*q)
+      if (any([input%has('weight'), input%has('displacement'), input%has('travel'), input%has('weighted_lever')])) then
+         ! What checks need belongs together
+         call input%set('weight', [4905.0_wp])
+         call input%set('displacement', [1.0_wp])
+         call input%set('travel', q)
+         if (input%has('weighted_lever')) call input%set('weighted_lever', spread(4905.0_wp, 1, size(q)))
+      end if
       if (input%has('vertical_lever')) call input%set('vertical_lever', 80.0_wp - 1.0e3_wp*q)
       if (.not. input%has('sides')) call input%set('sides', 2.0_wp)
       if (.not. input%has('restitution_value')) call input%set('restitution_value', 0.5_wp)
       if (input%has('top_share')) call input%set('top_tilt', 3.0_wp)
       if (input%has('top_tilt') .and. .not. input%has('top_share')) call input%set('top_share', 0.5_wp)
    end subroutine complete_table
+
+   !> Give the rows of a chain: a block with a load
+   subroutine complete_chain(input)
+      type(wall_input_type), intent(inout) :: input
+
+      call input%set('body_table', [1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.2_wp, 1.5_wp, 1350.0_wp, 1020.0_wp, 0.0_wp, 0.0_wp])
+      call input%set('joint_table', [2.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      if (input%has('action_table')) call input%set('action_table', [1.0_wp, 0.2_wp, 3.0_wp, 4.0e3_wp, 1.0_wp, 1.0_wp, 0.0_wp, &
+         & 0.0_wp, 0.0_wp, 0.0_wp])
+      if (input%has('driver')) call input%set('driver', 1.0_wp)
+      if (.not. input%has('sides')) call input%set('sides', 2.0_wp)
+      if (.not. input%has('restitution_value')) call input%set('restitution_value', 0.5_wp)
+   end subroutine complete_chain
 
    !> Give what must be given with a property
    subroutine complete(input, what)
@@ -480,7 +525,7 @@ contains
       character(len=*), parameter :: names(20) = [character(len=20) :: 'section_height', 'section_thickness', &
          & 'mass', 'centroid_depth', 'centroid_height', 'hinge_inertia', 'stress_block', 'compressive_strength', &
          & 'load', 'load_depth', 'load_height', 'inertia_mass', 'inertia_depth', 'inertia_height', 'thrust', &
-         & 'thrust_height', 'spring', 'spring_depth', 'spring_height', 'bed']
+         & 'thrust_height', 'spring', 'spring_depth', 'spring_height', 'distributed_spring']
       integer :: i
 
       select case (what)
@@ -506,6 +551,13 @@ contains
          if (what /= 'interlock_course') call input%set('interlock_course', 0.1_wp)
          if (what /= 'interlock_thickness') call input%set('interlock_thickness', 0.3_wp)
          if (what /= 'interlock_spacing') call input%set('interlock_spacing', 5.0_wp)
+      case ('facade_length', 'wedge_thickness', 'wedge_angle', 'wedge_bottom', 'wedge_top', 'wedge_length')
+         if (what /= 'facade_length') call input%set('facade_length', 6.0_wp)
+         if (what /= 'wedge_thickness') call input%set('wedge_thickness', [0.05_wp, 0.05_wp])
+         if (what /= 'wedge_angle') call input%set('wedge_angle', [20.0_wp, 25.0_wp])
+         if (what /= 'wedge_bottom') call input%set('wedge_bottom', [0.0_wp, 0.1_wp])
+         if (what /= 'wedge_top') call input%set('wedge_top', [2.9_wp, 3.0_wp])
+         if (what /= 'wedge_length') call input%set('wedge_length', [4.0_wp, 0.5_wp])
       case ('load_lifted')
          call input%set('load_pushed', [0.5_wp, 0.5_wp])
       case ('load_pushed')
@@ -524,10 +576,10 @@ contains
             if (names(i) /= 'stress_block') call input%set(trim(names(i)), [0.4_wp, 0.4_wp])
          end select
       end do
-      if (index(what, 'bed') /= 1) return
-      if (.not. input%has('bed_depth')) call input%set('bed_depth', [0.1_wp])
-      if (.not. input%has('bed_bottom')) call input%set('bed_bottom', [0.1_wp])
-      if (.not. input%has('bed_top')) call input%set('bed_top', [1.0_wp])
+      if (index(what, 'distributed_spring') /= 1) return
+      if (.not. input%has('distributed_spring_depth')) call input%set('distributed_spring_depth', [0.1_wp])
+      if (.not. input%has('distributed_spring_bottom')) call input%set('distributed_spring_bottom', [0.1_wp])
+      if (.not. input%has('distributed_spring_top')) call input%set('distributed_spring_top', [1.0_wp])
    end subroutine complete
 
    !> Give a tie with a plate, and the masonry that it bears on

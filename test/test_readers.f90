@@ -8,21 +8,21 @@ program test_readers
    use, intrinsic :: iso_fortran_env, only : input_unit, output_unit
    use archive_files, only : cosmos, cosmos_type, csmip, geonet, smc, with_crlf
    use checks, only : check, finish, suite
-   use dondolo_base_csv_row, only : cell_type
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_number_table, only : read_number_table
    use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
    use dondolo_case_read_case, only : read_case
+   use dondolo_files_csv_row, only : cell_type
+   use dondolo_files_number_table, only : read_number_table
    use dondolo_population_reader, only : read_population
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_store, only : look_into_store, store_type
    use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_record_catalogue, only : read_catalogue
-   use dondolo_record_reader, only : read_records
+   use dondolo_records_catalogue, only : read_catalogue
+   use dondolo_records_record_reader, only : read_records
    use small_files, only : asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
       & peer_content, smtk_content, write_file
    implicit none
@@ -69,7 +69,7 @@ contains
       call write_sample('cwa', cwa_content())
       call write_sample('asa', asa_content('7'))
       call write_sample('eqsig', eqsig_content('7'))
-      call write_sample('columns_1', columns_content('# remark: x'//lf//'t,a,b,c'//lf))
+      call write_sample('columns_1', columns_content('# remark: x'//lf//'t,acc x,acc y,acc z'//lf))
       call write_sample('columns_2', '0 1'//lf//'.01 2'//lf//'.02 -1.5'//lf)
       call write_sample('cosmos_1', cosmos(cosmos_type()))
       call write_sample('cosmos_2', cosmos(cosmos_type())//with_crlf(cosmos(cosmos_type(format='(1E15.6)'))))

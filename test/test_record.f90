@@ -2,21 +2,23 @@
 program test_record
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_base_csv_row, only : cell_type, split_row, text_cell
    use dondolo_base_encoding, only : from_utf16, is_ascii, is_utf8
    use dondolo_base_error, only : error_type, status_missing
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : longest_case
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_numbers, only : parse_integer, parse_real, take_column, take_real
-   use dondolo_base_reader, only : file_size, reader_type
    use dondolo_base_text, only : to_text
-   use dondolo_base_text_file, only : read_text_file, text_file_type
+   use dondolo_files_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_files_csv_row, only : cell_type, split_row, text_cell
+   use dondolo_files_reader, only : file_size, reader_type
+   use dondolo_files_text_file, only : read_text_file, text_file_type
    use dondolo_record, only : record_type
-   use dondolo_record_catalogue, only : read_catalogue, record_rows_type
-   use dondolo_record_clusters, only : cluster_records
-   use dondolo_record_reader, only : read_record
-   use dondolo_record_units, only : unit_factor
+   use dondolo_record_rows, only : record_rows_type
+   use dondolo_records_catalogue, only : read_catalogue
+   use dondolo_records_clusters, only : cluster_records
+   use dondolo_records_record_reader, only : read_record
+   use dondolo_records_units, only : unit_factor
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_record'
@@ -635,9 +637,11 @@ contains
       call check_file('plain.txt', values)
       call check_file('dots.in.name.acc', values)
       call check_file('crlf.txt', '0'//cr//lf//'.1'//cr//lf//'-.25'//cr//lf//'.001'//cr//lf//'5e-2'//achar(26))
-      call check_file('titled', '# remark 1,2,3'//lf//lf//'acceleration (m/s2)'//lf//'#'//lf//values)
+      call check_file('titled', '# remark'//lf//lf//'acceleration (m/s2)'//lf//'#'//lf//values)
       call check_file('quoted.csv', '"acc"'//lf//values)
-      call check_bad_file('0.1'//lf//'1,5'//lf//'0.3'//lf, ': line 2: 2 values: must be 1 as in line 1')
+      call check_bad_file('# remark 1,2,3'//lf//values, ': line 1: ''remark 1,2,3'' is no statement that is read: a row of a '// &
+         & 'catalogue must say what the file holds, as ''file,dt_s,units,columns'' and ''bad.txt,STEP,m/s2,acceleration''')
+      call check_bad_file('0.1'//lf//'1,5'//lf//'0.3'//lf, ': line 1: ''0.1'' above lines of 2 values')
       call check_bad_file('0.1'//lf//'0.2'//lf//'nan'//lf//'0.3', ': line 3: value ''nan'': must be a number')
       call check_bad_file('NaN'//lf//'0.2'//lf//'0.3'//lf, ': line 1: value ''NaN'': must be a number')
       call check_bad_file('*****'//lf//'0.2'//lf//'0.3'//lf, ': line 1: value ''*****'': must be a number')
@@ -645,12 +649,15 @@ contains
       call check_bad_file('0.1'//lf//'0.2'//lf//lf//'0.3'//lf, ': line 3: 0 values: must be 1')
       call check_bad_file('0.1'//lf//'0.2'//lf//'# remark'//lf//'0.3'//lf, ': line 3: 2 values: must be 1')
       call check_bad_file('0.1'//lf//'0.2'//lf//'1e400'//lf, ': ')
-      call check_bad_file('title'//lf//'0.1'//lf, ': number of samples = 1: must be at least 2')
+      call check_bad_file('acc'//lf//'0.1'//lf, ': number of samples = 1: must be at least 2')
       call check_bad_file('0.1'//lf//'2e4'//lf, ': sample 2 = 2')
    end subroutine test_one_column
 
    !> Two columns
    subroutine test_two_columns()
+      character(len=*), parameter :: no_times = ': line 1: 2 columns without titles of which the first is no column of times '// &
+         & 'at equal steps of at most 0.25 s ('
+
       call suite('two columns')
       call check_file('comma.csv', 'time,acc'//lf//'0,0'//lf//'0.01,0.1'//lf//'0.02,-0.25'//lf//'0.03,1e-3'//lf// &
          & '0.04,0.05', .true.)
@@ -662,14 +669,14 @@ contains
       call check_file('semicolon.txt', '# t; a'//cr//lf//'0; 0'//cr//lf//'.01;.1'//cr//lf//'.02;-.25'//cr//lf// &
          & '.03;.001'//cr//lf//'.04;5e-2', &
          & .true.)
-      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.03,1'//lf//'0.04,1'//lf, ': line 3: time 0.03 after 0.01: ')
-      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.04,1'//lf, ': line 4: time 0.04 after 0.02: ')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.03,1'//lf//'0.04,1'//lf, no_times//'line 3: time 0.03 after 0.01: ')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.04,1'//lf, no_times//'line 4: time 0.04 after 0.02: ')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.02,1'//lf//'.03,1', &
-         & ': line 4: time 0.02 after 0.02: times must be equally spaced')
+         & no_times//'line 4: time 0.02 after 0.02: times must be equally spaced')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.005,1'//lf, &
-         & ': line 3: time 0.005 after 0.01: times must increase')
-      call check_bad_file('0 1 2 3'//lf//'0 1 2 3'//lf, ': line 2: all times are 0')
-      call check_bad_file('1,0'//lf//'1,1'//lf//'1,2'//lf, ': line 2: all times are 1')
+         & no_times//'line 3: time 0.005 after 0.01: times must increase')
+      call check_bad_file('0 1 2 3'//lf//'0 1 2 3'//lf, ': line 1: 4 columns without titles of accelerations')
+      call check_bad_file('1. 0'//lf//'1. 1'//lf//'1. 2'//lf, no_times//'line 2: all times are 1')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02'//lf, ': line 3: 1 values: must be 2 as in line 1')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1,1'//lf, ': line 3: 3 values: must be 2')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1.x'//lf, ': line 3: value ''1.x'': must be a number')
@@ -681,8 +688,7 @@ contains
       call check_file('commas_tab.txt', '0,00'//tab//'0,0'//lf//'0,01'//tab//'0,1'//lf//'0,02'//tab//'-0,25'//lf// &
          & '0,03'//tab//'0,001'//lf//'0,04'//tab//'0,05'//lf, .true.)
       call check_bad_file('0;0'//lf//'0,01;1.5'//lf//'0,02;2'//lf, ': line 2: value ''0,01'': must be a number')
-      call check_bad_file('0,5'//lf//'0,25'//lf//'-0,5'//lf, &
-         & ': line 2: all times are 0: must increase (columns separated by commas need decimal points)')
+      call check_bad_file('0,5'//lf//'0,25'//lf//'-0,5'//lf, ': line 1: columns separated by commas need decimal points')
    end subroutine test_two_columns
 
    !> Times as programs print them: rounded steps of 1/256 s, 5 digits beyond 100 s, single precision
@@ -876,8 +882,8 @@ contains
    !> Contents of no known format
    subroutine test_unknown()
       call suite('unknown')
-      call check_bad_file('0 1 2 3'//lf//'1'//lf//'1 2'//lf, &
-         & ': the format is not known: must be one of ''peer'', ''dyna'', ''')
+      call check_bad_file('0 1 2 3'//lf//'1'//lf//'1 2'//lf, ': line 1: ''0 1 2 3'' above lines of one value, '// &
+         & 'but not their number and step: a row')
       call check_bad_file('words'//lf//'and more'//lf//'words'//lf, ': the format is not known')
       call check_bad_file('# remark'//lf, ': the format is not known')
       call check_bad_file('', ': the file is empty')
@@ -1163,6 +1169,7 @@ contains
    !> Records that belong together
    subroutine test_clusters()
       type(record_type) :: records(8)
+      type(lines_type) :: labels
       integer :: clusters(8), i
 
       call suite('clusters')
@@ -1177,13 +1184,13 @@ contains
       records(6)%acceleration = small(:4)
       call records(7)%metadata%set('event', 'A')
       ! The last is the same motion as the first, and neither has an event.
-      call cluster_records(records, clusters)
+      call cluster_records(records, clusters, labels)
       call check(all(clusters == [1, 2, 3, 4, 5, 6, 2, 1]), 'one event, and one motion, are one cluster')
       records(8)%vertical = small
-      call cluster_records(records, clusters)
+      call cluster_records(records, clusters, labels)
       call check(clusters(8) == 5, 'the same motion with the same vertical component')
       records(8)%vertical(1) = 0.01_wp
-      call cluster_records(records, clusters)
+      call cluster_records(records, clusters, labels)
       call check(clusters(8) == 7, 'another vertical component')
    end subroutine test_clusters
 

@@ -4,15 +4,15 @@
 !> Recorded accelerograms are not part of dondolo: DONDOLO_RECORDS names their folder.
 program test_reference
    use checks, only : check, check_close, check_ok, check_text, finish, skip, suite
-   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
+   use dondolo_files_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_motion_response, only : response_type
    use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_record_catalogue, only : read_catalogue
+   use dondolo_records_catalogue, only : read_catalogue
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use stripe_runs, only : run_stripes
    implicit none

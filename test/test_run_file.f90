@@ -3,12 +3,12 @@ program test_run_file
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_text, finish, suite
-   use dondolo_base_checksum, only : crc32_length, crc32_of_file
    use dondolo_base_json, only : json_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_case_echo, only : echo_type
+   use dondolo_files_checksum, only : crc32_length, crc32_of_file
    implicit none
 
    character(len=*), parameter :: lf = new_line('a'), scratch = 'build/test_run_file'

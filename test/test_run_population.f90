@@ -3,11 +3,9 @@
 program test_run_population
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_error, check_ok, check_text, finish, suite
-   use dondolo_base_checksum, only : crc32_of_text
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_system, only : remove_file
    use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
    use dondolo_case_motion_warnings, only : scale_warnings_type
@@ -18,6 +16,8 @@ program test_run_population
    use dondolo_case_result_tables, only : table_suffixes
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : plan_case, run_case
+   use dondolo_files_checksum, only : crc32_of_text
+   use dondolo_files_system, only : remove_file
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_work, only : work_type
    use dondolo_population_reader, only : read_population

@@ -10,15 +10,15 @@ program test_sentences
    use dondolo_base_numbers, only : parse_integer
    use dondolo_base_plain, only : shown
    use dondolo_base_text, only : counted, first_word, join, rounded, stripped, to_table, to_text
-   use dondolo_base_text_file, only : text_file_type
+   use dondolo_files_text_file, only : text_file_type
    use dondolo_fragility_scaling, only : new_scaling, scaling_type
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_dates, only : find_moment
-   use dondolo_record_formats, only : find_format, format_type
-   use dondolo_record_header_text, only : after, before, leading_number, squeezed
    use dondolo_record_intensity, only : measure_type, new_measure
    use dondolo_record_metadata, only : metadata_type
-   use dondolo_record_units, only : unit_factor
+   use dondolo_records_dates, only : find_moment
+   use dondolo_records_formats, only : find_format, format_type
+   use dondolo_records_header_text, only : after, before, leading_number, squeezed
+   use dondolo_records_units, only : unit_factor
    implicit none
 
    integer, parameter :: threads = 8, kinds = 10, sizes = 12

@@ -4,10 +4,10 @@ program test_synthetic
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
-   use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_random, only : new_random, random_type
    use dondolo_record_synthetic, only : motion_model_type, new_motion_model, synthetic_dt, synthetic_record
    use dondolo_record_synthetic_suite, only : suite_record, synthetic44
+   use dondolo_records_catalogue, only : read_catalogue
    implicit none
 
    real(wp), parameter :: pi = acos(-1.0_wp)

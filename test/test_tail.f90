@@ -6,9 +6,9 @@ program test_tail
    use dondolo_motion_adaptive_step, only : advance, motion_type
    use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_motion_events, only : impact, limit_reached
-   use dondolo_motion_restraint_state, only : restraint_state_type
-   use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_response, only : response_type
+   use dondolo_motion_restrained_tail, only : restrained_motion
+   use dondolo_motion_restraint_state, only : restraint_state_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_tail, only : free_motion, tail_type
    use dondolo_motion_wall_constants, only : new_wall_constants, wall_constants_type

@@ -6,10 +6,10 @@ program test_ties
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
-   use dondolo_motion_restraint_state, only : restraint_state_type
-   use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_response, only : response_type, tie_response_type, trace_type
    use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_restrained_tail, only : restrained_motion
+   use dondolo_motion_restraint_state, only : restraint_state_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_solver, only : solver_type
    use dondolo_motion_tail, only : tail_type
@@ -474,7 +474,7 @@ contains
       call refuse(input, 'tie_area: has 2 values, must have 1 as tie_height, or one for all')
       input = tied()
       call input%set('mechanism', 'free_standing')
-      call refuse(input, 'tie_height = 8.5: only for mechanism = ''one_sided''')
+      call refuse(input, 'tie_height = 8.5: only for mechanism = ''one_sided'' or ''two_block''')
       input = tied()
       call input%set('tie_area', [0.0_wp])
       call refuse(input, 'tie_area: must be given with tie_height, or tie_bar and tie_spacing')

@@ -139,7 +139,7 @@ contains
       end do
    end function names_of
 
-   !> Where all walls that can collapse do, rounding of the saturation makes up no survivors
+   !> Where all walls that can collapse do, rounding of the upper asymptote makes up no survivors
    subroutine test_all_that_can()
       type(counted_wall_type) :: wall
       type(typology_type), allocatable :: curves(:)
@@ -296,10 +296,10 @@ contains
          & /(2.0_wp*can + 1.0_wp)), 1.0e-12_wp, 'dispersion between records is that of the walls as a whole')
       call check_close(curves(3)%beta_walls, sqrt(2.0_wp*can)/(2.0_wp*can + 1.0_wp) &
          & *abs(log(fit%theta/plain%curve(1)%theta)), 1.0e-12_wp, 'dispersion between walls that can collapse')
-      call check_close(curves(3)%saturation, (2.0_wp*can + 1.0_wp)/3.0_wp, 1.0e-15_wp, 'what the mean comes to')
-      call check_close(curves(1)%saturation, 1.0_wp, 0.0_wp, 'one mechanism, if it can occur')
+      call check_close(curves(3)%upper_asymptote, (2.0_wp*can + 1.0_wp)/3.0_wp, 1.0e-15_wp, 'what the mean comes to')
+      call check_close(curves(1)%upper_asymptote, 1.0_wp, 0.0_wp, 'one mechanism, if it can occur')
       call check_close(curves(3)%fitted, 1.0_wp, 1.0e-15_wp, 'all have a curve')
-      call fit_fragility(fit, x, 88.0_wp*curves(3)%mean_fraction/curves(3)%saturation, spread(88.0_wp, 1, 3), error)
+      call fit_fragility(fit, x, 88.0_wp*curves(3)%mean_fraction/curves(3)%upper_asymptote, spread(88.0_wp, 1, 3), error)
       call check_close(curves(3)%fit%theta, fit%theta, 1.0e-12_wp, 'the lognormal is that of walls that can collapse')
 
       ! Of one mechanism the wall counts as often as it can occur: 0.9 of 1 with the lower curve, then 0.1.

@@ -15,8 +15,8 @@ program test_vertical
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_set, only : new_record_set, record_set_type
+   use dondolo_records_catalogue, only : read_catalogue
    use dondolo_wall, only : new_wall, wall_type
    use lane_runs, only : run_alone
    use motion_inputs, only : a_wall, accelerogram, made, tight
@@ -328,10 +328,11 @@ contains
       call write_file('up.txt', '4'//lf//'5'//lf//'-6'//lf)
       call write_file('short.txt', '4'//lf//'5'//lf)
       call write_file('channels.csv', 'time,NS,UD'//lf//'0,1,7'//lf//'0.01,2,8'//lf//'0.02,3,9'//lf)
-      call write_file('all.csv', 'file,dt_s,units,channel,vertical'//lf//'a.txt,.01,m/s2,,up.txt'//lf// &
-         & 'channels.csv,,m/s2,NS,UD'//lf)
+      call write_file('all.csv', 'file,dt_s,units,channel,vertical,columns'//lf//'a.txt,.01,m/s2,,up.txt,'//lf// &
+         & 'channels.csv,,m/s2,NS,UD,"time,acceleration,acceleration"'//lf)
       call read_catalogue(scratch//'/all.csv', records, error)
       call check_ok(error, 'left out')
+      if (allocated(error)) return
       call check(.not. allocated(records(1)%vertical), 'left out')
       call read_catalogue(scratch//'/all.csv', records, error, vertical_factor=-2.0_wp)
       call check_ok(error, 'files and channels')
@@ -344,7 +345,9 @@ contains
       call refuse('file,dt_s,units,vertical'//lf//'a.txt,.01,g,none.txt'//lf, 'line 2: '//scratch//'/none.txt: no such')
       call refuse('file,dt_s,units,vertical'//lf//'a.txt,.01,g,short.txt'//lf, &
          & 'line 2: vertical: has 2 samples, must have 3 as the record')
-      call refuse('file,dt_s,units,channel,vertical'//lf//'channels.csv,,g,NS,EW'//lf, 'EW')
+      call refuse('file,dt_s,units,channel,vertical,columns'//lf// &
+         & 'channels.csv,,g,NS,EW,"time,acceleration,acceleration"'//lf, '''EW''')
+      call refuse('file,dt_s,units,channel,vertical'//lf//'channels.csv,,g,NS,UD'//lf, 'title ''NS'' is not one of')
    end subroutine test_catalogue
 
    !> A catalogue that cannot be read with vertical components

@@ -17,19 +17,20 @@ declare -A minutes=(
    ['verification --quick']=6
    ['synthetic44 out/quick/records']=1
    ['oldest --quick']=9
+   ['openquake --quick']=8
    ['wheel python3']=5
    ['windows --quick']=10
    ['mutations --quick']=3
    ['docs']=5
    ['city --quick']=2
    ['figures out/quick/figures']=1
+   ['experiments --check']=1
    ['intervals --quick']=2
-   ['build gpu']=1
    ['benchmark --quick']=5
 )
 by_fpm=('stress 100' 'attack 5' 'reference --quick' 'coverage wall' 'verification --quick' 'synthetic44 out/quick/records')
-others=('oldest --quick' 'wheel python3' 'windows --quick' 'mutations --quick' 'docs' 'city --quick' 'figures out/quick/figures'
-   'intervals --quick' 'build gpu' 'benchmark --quick')
+others=('oldest --quick' 'openquake --quick' 'wheel python3' 'windows --quick' 'mutations --quick' 'docs' 'city --quick'
+   'figures out/quick/figures' 'experiments --check' 'intervals --quick' 'benchmark --quick')
 commits=$(git rev-list --count HEAD 2>/dev/null || echo 0)
 rotate() { # rotate LIST: its elements, begun at one that changes with the commits
    local -n list=$1
@@ -42,7 +43,7 @@ wanted=("$@")
 logs=out/verbs
 line='%-32s %-8s %7s %7s  %s\n'
 
-name_of() { [ "$1" = 'build gpu' ] && echo gpu || echo "${1%% *}"; }
+name_of() { echo "${1%% *}"; }
 
 is_wanted() {
    local word
@@ -54,9 +55,6 @@ is_wanted() {
 # Why a verb cannot run here, if it cannot
 obstacle() {
    case $1 in
-      'build gpu')
-         compgen -G '/usr/bin/*accel-nvptx-none-gcc*' >/dev/null || { command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; } ||
-            echo "needs gcc-offload-nvptx" ;;
       windows*)
          command -v x86_64-w64-mingw32-gcc-posix >/dev/null || echo "needs gcc-mingw-w64-x86-64-posix" ;;
       oldest*)

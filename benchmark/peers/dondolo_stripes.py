@@ -10,9 +10,8 @@ import time
 from importlib.metadata import version
 from types import SimpleNamespace
 
-from dondolo._fortran import _core
-
 import dondolo as dd
+from dondolo._fortran import _core
 
 
 class Watch:

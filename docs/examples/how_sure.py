@@ -24,7 +24,7 @@ sources = {
     "hinge_depth": dd.distributions.Lognormal(0.01, 0.4, high=0.05),
     "density": dd.distributions.Normal(1800.0, 90.0),
 }
-found = dd.uncertain_wall(strip, records, np.linspace(0.2, 3.0, 15), sources=sources, n_variants=400)
+found = dd.propagate_uncertainty(strip, records, np.linspace(0.2, 3.0, 15), sources=sources, n_variants=400)
 print(found)
 found.to_csv(out / "how_sure.csv")
 found.plot().figure.savefig(out / "how_sure.png", dpi=110)

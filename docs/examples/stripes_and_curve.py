@@ -22,7 +22,7 @@ print("collapses", stripes.collapses, "of", stripes.histories)
 curve = stripes.fit()
 print(curve)
 print("95 % intervals, clustered by event:     ", curve.parameter_interval())
-print("95 % intervals by resampling the records:", curve.bootstrap(n_resamples=500, seed=1).parameter_interval())
+print("95 % intervals by resampling the records:", curve.bootstrap(n_resamples=500, rng=1).parameter_interval())
 low, high = curve.interval(0.7)
 print(f"P(collapse | 0.7 g) = {curve(0.7):.3f}, between {low:.3f} and {high:.3f}")
 

@@ -7,9 +7,10 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from cases import ROOT
+from study import DEFAULT, TOLERANCES
+
 from dondolo.figures.style import BLACK, BLUE, GREY, MECHANISMS, RED
 from dondolo.figures.themes import theme
-from study import DEFAULT, TOLERANCES
 
 FOLDER = ROOT / "docs" / "figures"
 LOWEST = 1e-17  # errors of zero are drawn at this value

@@ -10,6 +10,7 @@ from cases import ROOT
 from markdown import bullets, many, power, small
 from sections_accuracy import LARGE, targets, truth, work_precision
 from sections_flags import ORDINARY, doubts, estimates, flags, largest_shift, wrong_flags
+from sections_joints import joints
 from sections_loaded import loaded
 from sections_shortcuts import ALL, shortcut_errors, shortcuts, tests
 from sections_ties import ties
@@ -61,7 +62,7 @@ def write(study, executable, records):
         *summary(study),
     ]
     lines += truth(study) + work_precision(study) + targets(study) + flags(study) + estimates(study)
-    lines += shortcuts(study) + tests() + loaded(executable, records) + walls(records) + ties(records)
+    lines += shortcuts(study) + tests() + loaded(executable, records) + walls(records) + ties(records) + joints(records)
     (ROOT / "docs" / "studies" / "verification.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 

@@ -9,7 +9,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -18,10 +18,10 @@ from dondolo._fortran.files import whole_file
 from dondolo._fortran.origins import check_replaced
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar
-from dondolo.curves.fragility_model import Function
 from dondolo.errors import silent, visible
+from dondolo.exchange.exposure import functions_of
 from dondolo.figures.saving import mark_end, save_figure
-from dondolo.populations.nrml_functions import taxonomy_of
+from dondolo.hazard.openquake import is_of_openquake
 from dondolo.records.catalogues import build_catalogue
 from dondolo.reporting.language import Language
 from dondolo.reporting.pdf import check_printer
@@ -130,8 +130,14 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument(
         "--hazard",
         help="hazard curve of the site, for the annual frequency of collapse: a CSV table of the levels, titled with "
-        "their intensity measure or 'ag (g)', and annual_frequency, return_period, or poe and investigation_time",
+        "their intensity measure or 'ag (g)', and annual_frequency, return_period, or poe and investigation_time; or "
+        "hazard curves that OpenQuake has exported",
         metavar="FILE",
+    )
+    report.add_argument(
+        "--site",
+        help="longitude and latitude [degrees] of the site, LON,LAT, in a file of OpenQuake with several sites",
+        metavar="LON,LAT",
     )
     report.set_defaults(run=_report)
     report.add_argument("--pdf", action="store_true", help="write PREFIX_report.pdf instead, by Chromium or WeasyPrint")
@@ -151,6 +157,11 @@ def _parser() -> argparse.ArgumentParser:
         "--output",
         help="path of the document, .docx, .html or .pdf; PREFIX_relazione.html by default",
         metavar="FILE",
+    )
+    relazione.add_argument(
+        "--mechanisms",
+        action="store_true",
+        help="the runs are several mechanisms of one building, and not a wall and its designs",
     )
     relazione.add_argument("--lang", help="en or it; DONDOLO_LANG by default, or en", metavar="LANGUAGE")
     relazione.add_argument("--data", help="TOML file of the project: title page and texts", metavar="FILE")
@@ -175,7 +186,42 @@ def _parser() -> argparse.ArgumentParser:
     )
     nrml.add_argument("prefix", help="prefix of the result files, for example out/population", metavar="PREFIX")
     nrml.add_argument("-o", "--output", help="path of the model, PREFIX_fragility.xml by default", metavar="FILE")
+    nrml.add_argument(
+        "--no-damage-limit",
+        type=float,
+        help="intensity up to which there is no damage, in the unit of the levels; by default just below the first",
+        metavar="X",
+    )
+    nrml.add_argument(
+        "--imt", help="OpenQuake's measure of curves against saavg(T1:T2): AvgSA, or AvgSA(T)", metavar="NAME"
+    )
     nrml.set_defaults(run=_nrml)
+    openquake = commands.add_parser(
+        "openquake",
+        help="write a job of OpenQuake for the walls of a run",
+        description="Write the inputs with which OpenQuake computes damage and losses of the walls of a run: exposure, "
+        "taxonomy mapping, fragility, vulnerability, consequences and jobs. Columns x_lon, x_lat, x_value and "
+        "x_occupants of the table of walls are those of the assets. Shares are STATE=SHARE, separated by commas.",
+    )
+    openquake.add_argument("prefix", help="prefix of the result files, for example out/population", metavar="PREFIX")
+    openquake.add_argument("folder", help="a new or empty folder, or one of an earlier job", metavar="FOLDER")
+    openquake.add_argument("--site", help="longitude and latitude of all walls [degrees]", metavar="LON,LAT")
+    openquake.add_argument(
+        "--hazard", help="hazard of the town: a table of dondolo or hazard curves of OpenQuake", metavar="FILE"
+    )
+    openquake.add_argument("--ratios", help="share of the value lost in each state", metavar="SHARES")
+    openquake.add_argument("--fatalities", help="share of the occupants that die in each state", metavar="SHARES")
+    openquake.add_argument(
+        "--motion",
+        nargs=2,
+        help="motion of a scenario: tables of ground-motion fields and of sites, or grid.xml and uncertainty.xml of a "
+        "ShakeMap",
+        metavar="FILE",
+    )
+    openquake.add_argument(
+        "--imt", help="OpenQuake's measure of curves against saavg(T1:T2): AvgSA, or AvgSA(T)", metavar="NAME"
+    )
+    openquake.set_defaults(run=_openquake)
     records = commands.add_parser(
         "records",
         help="print a table of the records of a catalogue",
@@ -197,6 +243,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     catalogue.add_argument("--dt", type=float, help="time step [s] of files that do not state it", metavar="SECONDS")
     catalogue.add_argument("--units", help="units of files that do not state them, for example g", metavar="UNITS")
+    catalogue.add_argument(
+        "--columns",
+        help="what the columns of plain files are that do not say so: time, acceleration or other for each, separated "
+        "by commas, or rows for values along the rows",
+        metavar="WORDS",
+    )
     catalogue.add_argument("--vertical", action="store_true", help="keep vertical components")
     catalogue.set_defaults(run=_catalogue)
     serve = commands.add_parser(
@@ -235,9 +287,12 @@ def _records(options: argparse.Namespace) -> None:
 
 def _catalogue(options: argparse.Namespace) -> None:
     """Make a catalogue of a folder."""
-    made = build_catalogue(options.folder, options.output, options.dt, options.units, options.vertical)
+    made = build_catalogue(options.folder, options.output, options.dt, options.units, options.vertical, options.columns)
     for problem in made.problems:
         _tell(f"left out: {problem}")
+    if several := made.contradictions:
+        beyond = f" ({len(several)} files)" if len(several) > 1 else ""
+        _tell(f"{several[0]}, which counts, not what is given for files that do not state it{beyond}")
     _report_done("written", str(made.path), f" ({made.records} records)")
 
 
@@ -267,11 +322,33 @@ def _report(options: argparse.Namespace) -> None:
     if path.lower().endswith(".pdf"):
         check_printer()
     _import_matplotlib()
-    hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
+    hazard = _hazard(options.hazard, options.site)
     results = dd.read_results(options.prefix)
     _make_folder(path)
     dd.report(results, path, hazard=hazard, lang=options.lang)
     _report_done("written", path)
+
+
+def _hazard(path: str | None, site: str | None) -> dd.HazardCurve | None:
+    """The hazard curve of a file, of dondolo or of OpenQuake, at a site."""
+    if path is None:
+        if site is not None:
+            raise dd.errors.InputError("--site: must be given with --hazard")
+        return None
+    if not is_of_openquake(path):
+        if site is not None:
+            raise dd.errors.InputError(f"--site: {path} is not of OpenQuake: its curve is that of one site")
+        return dd.HazardCurve.from_csv(path)
+    return dd.HazardCurve.from_openquake(path, site=None if site is None else _coordinates("--site", site))
+
+
+def _coordinates(option: str, text: str) -> tuple[float, float]:
+    """Longitude and latitude of an option."""
+    try:
+        longitude, latitude = map(float, text.split(","))
+    except ValueError:
+        raise dd.errors.InputError(f"{option} {text}: must be LON,LAT in degrees, such as 13.4,42.35") from None
+    return longitude, latitude
 
 
 def _relazione(options: argparse.Namespace) -> None:
@@ -282,7 +359,12 @@ def _relazione(options: argparse.Namespace) -> None:
     _import_matplotlib()
     results = [dd.read_results(prefix) for prefix in options.prefixes]
     _make_folder(path)
-    given = {"lang": options.lang, "project": options.data, "template": options.template}
+    given = {
+        "lang": options.lang,
+        "project": options.data,
+        "template": options.template,
+        "mechanisms": options.mechanisms,
+    }
     left = dd.calculation_report(results, path, **given)
     _report_done("written", path)
     if left:
@@ -302,21 +384,47 @@ def _nrml(options: argparse.Namespace) -> None:
     path = options.output or f"{options.prefix}_fragility.xml"
     results = dd.read_results(options.prefix)
     _make_folder(path)
-    functions: Mapping[str, Mapping[str, Function]]
-    sentences: list[str] = []
-    if results.typology is not None:
-        functions, sentences = results.typology.nrml_functions()
-    elif results.fragility is not None:
-        if not results.fragility.has_fit:
-            raise dd.errors.DondoloError(f"{options.prefix}: has no curve (status '{results.fragility.status}')")
-        functions = {taxonomy_of(results.population[0].name): {"collapse": results.fragility}}
-    else:
-        raise dd.errors.InputError(f"{options.prefix}: is a single motion, which has no curves")
+    try:
+        functions, sentences = functions_of(results)
+    except dd.errors.InputError as error:
+        raise error.placed(options.prefix) from None
+    except dd.errors.DondoloError as error:
+        raise dd.errors.DondoloError(f"{options.prefix}: {error}") from None
     for sentence in sentences:
         _tell(sentence)
     name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
-    dd.write_nrml(path, functions, id=name, run=results.run.run)
+    dd.write_nrml(
+        path, functions, id=name, no_damage_limit=options.no_damage_limit, imt=options.imt, run=results.run.run
+    )
     _report_done("written", path, f" ({len(functions)} function{'s' if len(functions) > 1 else ''})")
+
+
+def _openquake(options: argparse.Namespace) -> None:
+    """Write a job of OpenQuake."""
+    results = dd.read_results(options.prefix)
+    files = dd.write_openquake(
+        results,
+        options.folder,
+        site=None if options.site is None else _coordinates("--site", options.site),
+        hazard=options.hazard,
+        ratios=_shares("--ratios", options.ratios),
+        fatalities=_shares("--fatalities", options.fatalities),
+        motion=options.motion,
+        imt=options.imt,
+    )
+    for file in files:
+        _report_done("written", file)
+
+
+def _shares(option: str, text: str | None) -> dict[str, float] | None:
+    """Shares of states in an option: STATE=SHARE,STATE=SHARE."""
+    if text is None:
+        return None
+    try:
+        pairs = [word.split("=") for word in text.split(",")]
+        return {state: float(share) for state, share in pairs}
+    except ValueError:
+        raise dd.errors.InputError(f"{option} {text}: must be STATE=SHARE, separated by commas") from None
 
 
 def _plot(options: argparse.Namespace) -> None:

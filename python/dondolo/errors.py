@@ -222,8 +222,8 @@ class Interrupted(KeyboardInterrupt):
 
     Attributes
     ----------
-    partial : Stripes, Typology or None
-        The finished part as a result of its own: the complete stripes, or the complete walls; None if there are none.
+    partial : Stripes, Typology, DesignComparison or None
+        The finished part as a result of its own: the complete stripes, walls or designs; None if there are none.
         While histories are certified: all stripes, with a status of 0 for those that are still in doubt.
 
     Examples

@@ -19,12 +19,14 @@ from dondolo.curves.comparison import Comparison as Comparison
 from dondolo.curves.curve import Curve as Curve
 from dondolo.curves.fragility_model import FragilityModel as FragilityModel
 from dondolo.curves.goodness import GoodnessOfFit as GoodnessOfFit
+from dondolo.curves.model_error import ModelError as ModelError
 from dondolo.curves.regression import Logistic as Logistic
 from dondolo.curves.regression import Regression as Regression
 from dondolo.curves.risk import Risk as Risk
 from dondolo.curves.risk_uncertainty import RiskUncertainty as RiskUncertainty
 from dondolo.exchange.cases import Case as Case
 from dondolo.exchange.results import Results as Results
+from dondolo.hazard.sites import SiteHazards as SiteHazards
 from dondolo.populations.bootstrap import TypologyBootstrap as TypologyBootstrap
 from dondolo.populations.curve import Group as Group
 from dondolo.populations.curve import PopulationCurve as PopulationCurve

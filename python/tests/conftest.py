@@ -12,9 +12,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from dondolo._fortran import _core
 
 import dondolo as dd
+from dondolo._fortran import _core
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -5,12 +5,12 @@ from math import erfc
 
 import numpy as np
 import pytest
-from dondolo._fortran import _core
-from dondolo.analysis.auto_levels import _determinants, next_level
 from refusals import refused
 from scipy.optimize import minimize
 
 import dondolo as dd
+from dondolo._fortran import _core
+from dondolo.analysis.auto_levels import _determinants, next_level
 
 
 def determinant(cuts):

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from dondolo.exchange.case_text import case_text
 
 import dondolo as dd
+from dondolo.exchange.case_text import case_text
 
 # Circolare 7/2019 takes each record in one direction in some of them
 pytestmark = pytest.mark.filterwarnings("ignore:&check")
 
 READY = ("facade", "facade_strip", "gable", "garden_wall", "history", "parapet", "parapet_on_building", "pinnacle")
-ALL = (*READY, "tied_facade", "two_block", "facade_hinges", "uncertain_strip")
+ALL = (*READY, "compound", "tied_facade", "two_block", "facade_hinges", "elastic_strip", "uncertain_strip")
 
 
 @pytest.fixture(scope="module")

@@ -8,20 +8,22 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 import study
+
+import dondolo as dd
 from dondolo._fortran import _core
 from dondolo._fortran.library import receive
 from dondolo.exchange import running
 from dondolo.exchange.cases import case_of
-
-import dondolo as dd
 
 CASES = {
     "parapet": ["walls", "histories", "stripes", "fragility"],
     "two_block": ["walls", "histories", "stripes", "fragility"],
     "facade_strip": ["walls", "histories", "stripes", "fragility"],
     "pinnacle": ["walls", "histories", "stripes", "fragility"],
+    "compound": ["walls", "histories", "stripes", "fragility"],
     "facade": ["walls", "histories", "stripes", "fragility"],
     "parapet_on_building": ["walls", "histories", "stripes", "fragility"],
+    "portal": ["walls", "histories", "stripes", "fragility"],
     "gable": ["walls", "histories", "stripes", "fragility"],
     "garden_wall": ["walls", "histories", "stripes", "fragility"],
     "tied_facade": ["walls", "histories", "stripes", "fragility"],

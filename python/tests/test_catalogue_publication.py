@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo._storage import tables
 
 import dondolo as dd
+from dondolo._storage import tables
 
 TIME = np.arange(0.0, 6.0, 0.01)
 

@@ -12,10 +12,10 @@ import time
 import numpy as np
 import pytest
 import study
-from dondolo._fortran import _core
-from dondolo.populations.store import Store
 
 import dondolo as dd
+from dondolo._fortran import _core
+from dondolo.populations.store import Store
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")]
 

@@ -24,7 +24,7 @@ def entries(text):
 @pytest.fixture(scope="module")
 def everything(root):
     """All sources, by their keys."""
-    text = (root / "src/dondolo/base/text/references.f90").read_text()
+    text = (root / "src/study/files/references.f90").read_text()
     keys = re.findall(r"reference_type\('(\w+)'", text)
     from dondolo._fortran.library import bibtex
 
@@ -48,17 +48,17 @@ def test_every_source_is_whole(everything):
 
 def test_words_of_sources_are_known(root):
     """What sources are said to be of: mechanisms, models of restitution, measures, engines, and words that are used."""
-    text = (root / "src/dondolo/base/text/references.f90").read_text()
+    text = (root / "src/study/files/references.f90").read_text()
     words = set(" ".join(re.findall(r"reference_type\('\w+', '\w+', '([^']*)'", text)).split())
     walls = {"one_sided", "free_standing", "two_block"}
     models = {f"{wall}/{model}" for wall in walls for model in ("default", "sorrentino", "impulse", "constant")}
     measures = {"arias", "arias-trapz", "cav", "cav-trapz", "d5-75", "d5-95", "hi", "sa", "saavg", "pga/a0", "p*pgv/a0"}
-    used = (root / "src/dondolo/case/input/cited.f90").read_text() + (
-        root / "src/dondolo/case/input/survey.f90"
+    used = (root / "src/study/case/input/cited.f90").read_text() + (
+        root / "src/study/case/input/survey.f90"
     ).read_text()
     used += (root / "python/dondolo/exchange/citing.py").read_text()
     others = {word for word in words - walls - models - measures if not re.search(rf"['\"]{word}['\"]", used)}
-    published = re.findall(r"published_factor_type\('(\w+)'", (root / "src/dondolo/wall/restitution.f90").read_text())
+    published = re.findall(r"published_factor_type\('(\w+)'", (root / "src/core/wall/restitution.f90").read_text())
     assert others <= set(published)
 
 

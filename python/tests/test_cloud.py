@@ -10,12 +10,12 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo._fortran import _core
-from dondolo.analysis.cloud import fit
 from refusals import refused
 from scipy import stats
 
 import dondolo as dd
+from dondolo._fortran import _core
+from dondolo.analysis.cloud import fit
 
 FACTOR = 2.5
 

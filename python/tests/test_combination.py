@@ -6,12 +6,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import study
-from dondolo.analysis.work import Work
-from dondolo.populations import plots
-from dondolo.populations.combination import combine
 from matplotlib.colors import to_rgba
 
 import dondolo as dd
+from dondolo.analysis.work import Work
+from dondolo.populations import plots
+from dondolo.populations.combination import combine
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -44,7 +44,7 @@ def typology_of(walls, levels=LEVELS, histories=HISTORIES):
     people = dd.Population(
         tuple(KINDS[row[3]](3.0, 0.3, name=row[0]) for row in rows),
         [row[2] for row in rows],
-        groups=tuple(row[1] for row in rows),
+        group_names=tuple(row[1] for row in rows),
         p_occ=[row[4][2] for row in rows],
     )
     share = [ndtr(np.log(levels / theta) / beta) for *_, (theta, beta, _) in rows]
@@ -162,12 +162,12 @@ def test_saturation(people):
         capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
         curve = people["all", group]
         finite = np.isfinite(capacity)
-        error = np.sqrt(curve.saturation * (1.0 - curve.saturation) / len(capacity))
-        assert abs(curve.saturation - finite.mean()) < 4.0 * error
-        assert people["all", group](1e3) == pytest.approx(curve.saturation, rel=1e-6)
-        assert curve.fit(1e3) == pytest.approx(curve.saturation, rel=1e-6)
+        error = np.sqrt(curve.upper_asymptote * (1.0 - curve.upper_asymptote) / len(capacity))
+        assert abs(curve.upper_asymptote - finite.mean()) < 4.0 * error
+        assert people["all", group](1e3) == pytest.approx(curve.upper_asymptote, rel=1e-6)
+        assert curve.fit(1e3) == pytest.approx(curve.upper_asymptote, rel=1e-6)
         assert curve.fit.theta == pytest.approx(np.median(capacity[finite]), rel=0.1)
-    assert all(curve.saturation == 1.0 for curve in people.groups if curve.mechanism != "all")
+    assert all(curve.upper_asymptote == 1.0 for curve in people.groups if curve.mechanism != "all")
 
 
 def test_dispersion_where_no_mechanism_may_occur():
@@ -176,7 +176,7 @@ def test_dispersion_where_no_mechanism_may_occur():
     capacity, _ = simulate(walls)
     ln = np.log(capacity[np.isfinite(capacity)])
     wide, narrow = typology_of(walls)["all"], typology_of(walls, LEVELS[LEVELS < 1.0])["all"]
-    assert wide.saturation == pytest.approx(0.3125, rel=1e-12)
+    assert wide.upper_asymptote == pytest.approx(0.3125, rel=1e-12)
     assert wide.beta_walls**2 + wide.beta_records**2 == pytest.approx(ln.var(), rel=0.02)
     assert (wide.fit.theta, wide.fit.beta) == pytest.approx((np.exp(ln.mean()), ln.std()), rel=0.05)
     assert (narrow.fit.theta, narrow.fit.beta) == pytest.approx((wide.fit.theta, wide.fit.beta), rel=0.1)
@@ -315,7 +315,7 @@ def states(few):
         dd.TwoBlockWall(2.5, 0.25, name="a"),
         dd.OneSidedWall(2.0, 0.25, name="b"),
     ]
-    people = dd.Population(walls, [1.0, 1.0, 2.0], groups=("x", "x", ""), p_occ=[0.5, 0.5, 1.0])
+    people = dd.Population(walls, [1.0, 1.0, 2.0], group_names=("x", "x", ""), p_occ=[0.5, 0.5, 1.0])
     levels = np.array([0.2, 0.4, 0.6, 0.9, 1.3])
     stripes = [dd.multiple_stripe(wall, few, levels, progress=False) for wall in walls]
     thresholds = np.array([0.1, 0.4, 1.0])

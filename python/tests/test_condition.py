@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
+import dondolo as dd
 from dondolo._fortran import _core
 from dondolo._fortran.library import check
 from dondolo.records.suite import upload
 from dondolo.walls.wall import upload as upload_walls
-
-import dondolo as dd
 
 ROOT = Path(__file__).resolve().parents[2]
 EPS = np.finfo(np.float64).eps

@@ -6,13 +6,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from dondolo.curves.damage_states import fit_states
-from dondolo.curves.fitting import fit
-from dondolo.curves.sample import Sample
 from scipy.optimize import minimize
 from scipy.special import ndtr
 
 import dondolo as dd
+from dondolo.curves.damage_states import fit_states
+from dondolo.curves.fitting import fit
+from dondolo.curves.sample import Sample
 
 STATES = [0.1, 0.4, 1.0]
 

@@ -41,7 +41,7 @@ SENTENCE = re.escape("record 'dead': has no motion (")
 def dead(request) -> dd.Record:
     """A record of a channel that did not work, with or without a vertical component that did."""
     vertical = NOISE if request.param == "zeros" else None
-    return dd.Record(DEAD[request.param], 0.01, "dead", vertical=vertical, metadata={"event": "any"})
+    return dd.Record(DEAD[request.param], 0.01, "dead", vertical=vertical, metadata={"event": "live0"})
 
 
 @pytest.mark.parametrize("im", ["pga", "pgv", "sa(0.5)", "arias", "pga/a0", "p*pgv/a0", "saavg(0.2:1.0)"])
@@ -67,7 +67,7 @@ def test_every_analysis_refuses(dead, wall):
         lambda: dd.adaptive_stripes(wall, several, budget=200, progress=False),
         lambda: dd.typology([wall, upstairs], several, levels, progress=False),
         lambda: dd.compare_designs(designs, several, levels, progress=False),
-        lambda: dd.uncertain_wall(wall, several, levels, sources=sources, n_variants=8, progress=False),
+        lambda: dd.propagate_uncertainty(wall, several, levels, sources=sources, n_variants=8, progress=False),
         lambda: dd.compare_intensities(wall, several, ["pga", "pgv"], progress=False),
         lambda: dd.cloud(wall, several, progress=False),
         lambda: dd.cloud(wall, dd.RecordSet(several, factor=0.5), progress=False),

@@ -284,6 +284,6 @@ def test_damage_states_and_hazard_of_designs(root, run, tmp_path):
     assert "thicker, collapse" in page
     functions, _ = results.typology.nrml_functions()
     assert {name: list(states) for name, states in functions.items()} == {
-        "as_found": ["edp_0p4", "collapse"],
+        "as found": ["edp_0p4", "collapse"],
         "thicker": ["edp_0p4", "collapse"],
     }

@@ -103,7 +103,7 @@ def test_a_moment_is_an_event_of_its_own():
 
 
 @pytest.mark.parametrize(
-    "text", ["", "To be determined", "unknown", "31/02/2010", "2019-02-29", "1994", "autumn", "0000-00-00"]
+    "text", ["", "To be determined", "unknown", "31/02/2010", "2019-02-29", "2016, 3 shocks", "autumn", "0000-00-00"]
 )
 def test_what_is_no_date_is_none(text):
     """Neither the guard of rotations nor a cluster rests on it, and the event does not go with it."""
@@ -124,6 +124,60 @@ def test_dates_are_compared_as_dates():
     assert len(same[0].rotate(same[1], 10.0)) == len(WAVE)
     with pytest.raises(dd.errors.InputError, match="date = '2018-02-12' and '2018-02-13': must be the same"):
         one.rotate(same[0], 10.0)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "same"),
+    [
+        ("1981", "1997", False),
+        ("1981", "1981-11-24", True),
+        ("1981", "1982", False),
+        ("1981-02", "1981-11", False),
+        ("02/1981", "24 February 1981", True),
+        ("Feb 1981", "autumn 1997", False),
+        ("24/02/81", "26/09/97", False),
+        ("24/02/81", "1981-02-24T20:53", True),
+        ("81-2-24", "97-9-26", False),
+        ("04/05/81", "11/24/81", False),
+        ("04/05/1981", "1981-05-04", True),
+        ("04/05/1981", "1981-06-04", False),
+        ("24 febbraio 1981", "26 settembre 1997", False),
+        ("24 de febrero de 1981", "24 février 1981", True),
+        ("3 ağustos 1981", "3. August 81", True),
+        ("1981/055", "1981-02-24", True),
+        ("1981/055", "1981-03-24", False),
+    ],
+)
+def test_a_name_at_dates_of_any_kind(wall, one, other, same):
+    """Two dates of one name are one earthquake only where they may be of one day; so are components of a motion."""
+    records = [
+        dd.Record(made.acceleration, made.dt, made.name, metadata={"event": "Dale", "date": date})
+        for made, date in zip(dd.synthetic_records(6.5, 10.0, "shallow", n_records=2), (one, other), strict=True)
+    ]
+    for several in (records, records[::-1]):
+        assert len(set(dd.multiple_stripe(wall, several, [0.2, 0.4], progress=False).events)) == 2 - same
+    pair = [dd.Record(WAVE, 0.01, metadata={"date": date}) for date in (one, other)]
+    if not same:
+        with pytest.raises(dd.errors.InputError, match=r"date = .*: must be the same"):
+            pair[0].rotate(pair[1], 10.0)
+
+
+def test_dates_that_cannot_be_compared(wall):
+    def caught(*dates):
+        records = [
+            dd.Record(made.acceleration, made.dt, made.name, metadata={"event": "Dale", "date": date})
+            for made, date in zip(dd.synthetic_records(6.5, 10.0, "shallow", n_records=2), dates, strict=True)
+        ]
+        with warnings.catch_warnings(record=True) as several:
+            warnings.simplefilter("always")
+            dd.multiple_stripe(wall, records, [0.2, 0.4], progress=False)
+        return [one.message for one in several if "cannot be compared" in str(one.message)]
+
+    (found,) = caught("the first shock", "1981-02-24")
+    assert found.code == "records_unread_date"
+    assert found.numbers == {"records_beyond": 1, "records": 2}
+    assert "its date 'the first shock'" in str(found)
+    assert caught("the first shock", "the first shock") == caught("the first shock", "") == caught("1981", "1997") == []
 
 
 def test_the_catalogue(tmp_path):
@@ -359,6 +413,56 @@ def test_a_run_says_that_earthquakes_are_not_known(wall):
     (one,) = (warning.message for warning in caught if "no event is given" in str(warning.message))
     assert one.code == "records_without_event"
     assert one.numbers == {"records_beyond": 2, "records": 3}
+
+
+def test_one_name_and_two_earthquakes(wall, tmp_path):
+    """In stripes, clouds, typologies, and in files that are read again; the label of a single record is its name."""
+    dates = ["1951-05-01", "1951-05-02T00:30", "1983-05-01", ""]
+    records = [
+        dd.Record(one.acceleration, one.dt, one.name, metadata={"event": "Dale", "date": date})
+        for one, date in zip(dd.synthetic_records(6.5, 10.0, "shallow", n_records=4), dates, strict=True)
+    ]
+    levels = np.linspace(0.1, 2.0, 20)
+    stripes = dd.multiple_stripe(wall, records, levels, progress=False)
+    assert stripes.events == ("Dale", "Dale", "Dale 1983-05-01", "Dale")
+    stripes.save(tmp_path / "s.npz")
+    assert dd.load(tmp_path / "s.npz").fit().clusters == stripes.fit().clusters == 2
+    assert records[2].event == "Dale"
+    found = dd.typology([wall, dd.OneSidedWall(2.0, 0.3)], records, levels, progress=False)
+    assert {curve.clusters for curve in found.curves} == {2}
+
+
+def csmip(*lines: str) -> str:
+    """A file of CSMIP of one channel, of which the lines 3 to 5 and 9 are given."""
+    text = ["Corrected accelerogram", "Uncorrected Accelerogram Data   Processed:  4/19/32, Agency"]
+    text += ["", "", "", "Station No. 9", "Some Town", "Chan  1: 360 Deg", *[""] * 9]
+    text += ["Peak acceleration = 30.000 cm/sec/sec at 0.01 sec."]
+    for place, line in zip((2, 3, 4, 8), lines, strict=False):
+        text[place] = line
+    text += [""] * (25 - len(text))
+    text += ["    4 points of accel data equally spaced at  .010 sec. (units: cm/sec/sec)"]
+    return "\n".join([*text, "".join(f"{value:10.3f}" for value in (0.0, 30.0, -10.0, 0.0)), "/&"]) + "\n"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Start time:  4/17/32, 10:20:33.0 UTC (GPS)",
+        "Trigger time: 17 Apr 2032 10:20",
+        "Trig time: 4/17/32",
+        "9-X1     Start Date: 04/17/2032",
+        "9-X1     Date: 4/17/2032",
+        "Rcrd of 2032/04/17",
+        "Rcrd of Sat Apr 17, 2032 03:20:33.0 PDT",
+        "Record of 2032/108:10:20:33",
+    ],
+)
+def test_the_day_of_a_record(line, tmp_path):
+    """CSMIP says it in many words; the day of the processing is another one."""
+    assert read(tmp_path, "a.V2", csmip("", "", line)).metadata["date"] == "2032-04-17"
+    later = read(tmp_path, "b.V2", csmip("", "", line.replace("17", "19").replace("108", "110")))
+    with pytest.raises(dd.errors.InputError, match="date = '2032-04-17' and '2032-04-19': must be the same"):
+        read(tmp_path, "a.V2", csmip("", "", line)).rotate(later, 10.0)
 
 
 def test_recorded_files(recordings):

@@ -132,7 +132,7 @@ def test_places_are_added(tmp_path):
 
 def test_list_of_codes(root):
     """The library's, Python's and those of the documentation are the same; each is raised by a test."""
-    source = (root / "src/dondolo/base/text/error.f90").read_text()
+    source = (root / "src/core/base/text/error.f90").read_text()
     library = re.findall(r"(\w+) = '\1'", source)
     (listed,) = re.findall(r"error_codes\(\*\) = \[character\(len=\d+\) :: ([^]]*)\]", source)
     assert re.findall(r"\w+", listed) == library
@@ -146,7 +146,7 @@ def test_list_of_codes(root):
 
 
 # Errors of Python that are raised without a code: it may only fall
-WITHOUT_CODE = 174
+WITHOUT_CODE = 173
 
 
 def test_errors_without_a_code_become_fewer(root):

@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import study
-from dondolo.populations import blocks, crew
 
 import dondolo as dd
+from dondolo.populations import blocks, crew
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")]
 

@@ -184,8 +184,8 @@ def test_population_of_facades(run, root, tmp_path, records):
     flags = result.flags
     union, own = result.unions["b"], [flags.of([i])[0, -1] for i in (2, 3)]
     expected = 1.0 - (1.0 - 0.8 * own[0]) * (1.0 - 0.5 * np.tile(own[1], 2))
-    assert union.saturation == pytest.approx(0.9)
-    assert union.collapses * union.saturation == pytest.approx(expected.sum(axis=1), rel=1e-12)
+    assert union.upper_asymptote == pytest.approx(0.9)
+    assert union.collapses * union.upper_asymptote == pytest.approx(expected.sum(axis=1), rel=1e-12)
     (tmp_path / "case.nml").write_text(
         "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
         f"&records catalogue = '{root / 'data/records/synthetic44.csv'}', polarity = 'both' /\n"
@@ -201,7 +201,7 @@ def test_population_of_facades(run, root, tmp_path, records):
     mean = result.group_unions[""]
     assert list(result.group_unions) == [""]
     means = [float(row["fraction"]) for row in table if not row["wall"]]
-    assert mean.saturation * mean.collapses / mean.histories == pytest.approx(means, rel=1e-12)
+    assert mean.upper_asymptote * mean.collapses / mean.histories == pytest.approx(means, rel=1e-12)
     first = next(row for row in table if not row["wall"])
     assert (mean.theta, mean.beta) == pytest.approx((float(first["theta"]), float(first["beta"])), rel=1e-9)
     # Over records and walls, as the mean of independent mechanisms, whose walls scatter alike
@@ -210,7 +210,9 @@ def test_population_of_facades(run, root, tmp_path, records):
     stored = dd.read_results(tmp_path / "out").typology
     assert stored.group_unions[""].theta == pytest.approx(mean.theta, rel=1e-9)
     assert stored.group_unions[""].covariance == pytest.approx(mean.covariance, rel=1e-9)
-    fractions = {name: curve.saturation * curve.collapses / curve.histories for name, curve in result.unions.items()}
+    fractions = {
+        name: curve.upper_asymptote * curve.collapses / curve.histories for name, curve in result.unions.items()
+    }
     alone = result.combined["c"].collapses / result.combined["c"].histories
     assert means == pytest.approx((2 * fractions["a"] + fractions["b"] + alone) / 4.0, rel=1e-9)
     assert "a: theta = " in done.stdout
@@ -339,7 +341,7 @@ def test_one_wall_with_two_mechanisms(few, tmp_path):
     people = dd.Population(walls, p_occ=[0.8, 0.5])
     result = dd.typology(people, few, [0.2, 0.4, 0.6, 0.8, 1.2, 1.6], progress=False)
     assert result.facade == "b"
-    assert result.unions["b"].saturation == pytest.approx(0.9)
+    assert result.unions["b"].upper_asymptote == pytest.approx(0.9)
     dd.report(result, tmp_path / "report.html")
     words = words_of(tmp_path / "report.html")
     assert "if one can occur (90 %)" in words

@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import study
+
+import dondolo as dd
 from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import build_variant
 from dondolo._storage import tables
-
-import dondolo as dd
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -63,7 +63,7 @@ def people(few):
         dd.TwoBlockWall(3.0, 0.25, name="a", gravity=9.7),
         dd.OneSidedWall(2.0, 0.30, name="b, with a comma", gravity=9.7),
     ]
-    population = dd.Population(walls, [2.0, 2.0, 1.0], groups=["low", "low", "high"], p_occ=[0.6, 0.5, 1.0])
+    population = dd.Population(walls, [2.0, 2.0, 1.0], group_names=["low", "low", "high"], p_occ=[0.6, 0.5, 1.0])
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
     return dd.typology(population, few, levels, polarity="both", edp_thresholds=[0.3], progress=False)
 
@@ -247,7 +247,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
     for make in (
         lambda: dd.OneSidedWall(3.0, 0.25, name=name),
         lambda: dd.Record(sine.acceleration, sine.dt, name=name),
-        lambda: dd.Population([wall], groups=[name]),
+        lambda: dd.Population([wall], group_names=[name]),
         lambda: dd.Population([wall], origin=[name]),
     ):
         with pytest.raises(dd.errors.InputError, match="must be one line without control characters"):

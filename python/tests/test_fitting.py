@@ -5,14 +5,14 @@ import warnings
 
 import numpy as np
 import pytest
-from dondolo._fortran.curves import student_quantile
-from dondolo.curves.bootstrap import draw_records
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refused
 from scipy import optimize, stats
 
 import dondolo as dd
+from dondolo._fortran.curves import student_quantile
+from dondolo.curves.bootstrap import draw_records
 
 PUBLIC = (
     [0.178, 0.274, 0.444, 0.56, 0.652, 0.79, 0.982, 1.246, 1.564, 2.014, 2.417, 3.021, 3.625, 4.028, 4.431, 5.035],
@@ -246,10 +246,10 @@ def test_wrong_confidence(level):
 
 def test_bootstrap(stripes):
     curve = stripes.fit(events=range(44))
-    boot = curve.bootstrap(n_resamples=4000, seed=1)
-    again = curve.bootstrap(n_resamples=4000, seed=1)
+    boot = curve.bootstrap(n_resamples=4000, rng=1)
+    again = curve.bootstrap(n_resamples=4000, rng=1)
     assert np.array_equal(boot.theta, again.theta, equal_nan=True)
-    assert not np.array_equal(boot.theta, curve.bootstrap(n_resamples=4000, seed=2).theta, equal_nan=True)
+    assert not np.array_equal(boot.theta, curve.bootstrap(n_resamples=4000, rng=2).theta, equal_nan=True)
     assert boot.without_fit < 0.01
     low, high = boot.parameter_interval(confidence=0.95)["theta"]
     assert low < curve.theta < high
@@ -412,7 +412,7 @@ def test_bootstrap_of_events_of_unequal_size(stripes):
     for part in parts:
         collapsed = stripes.collapsed[:, part]
         fits.append(statsmodels_fit(stripes.levels, collapsed.sum(axis=1), np.full(6, collapsed.shape[1]))[:2])
-    boot = stripes.fit().bootstrap(n_resamples=400, seed=3, events=[0] * 30 + [1] * 14)
+    boot = stripes.fit().bootstrap(n_resamples=400, rng=3, events=[0] * 30 + [1] * 14)
     found = np.column_stack([boot.theta, boot.beta])
     off = np.abs(found[:, None] / np.array(fits) - 1.0).max(axis=2)
     assert off.min(axis=1).max() < 1e-6
@@ -428,7 +428,7 @@ def test_bootstrap_goes_by_records_and_not_by_names(wall, few):
     curves = [
         dd.multiple_stripe(wall, records, levels, polarity="both", progress=False).fit() for records in (few, nameless)
     ]
-    named, unnamed = (curve.bootstrap(n_resamples=200, seed=3) for curve in curves)
+    named, unnamed = (curve.bootstrap(n_resamples=200, rng=3) for curve in curves)
     np.testing.assert_array_equal(named.theta, unnamed.theta)
     assert np.nanstd(unnamed.theta) > 0.0
 
@@ -443,15 +443,15 @@ def test_events_are_drawn_together(wall, few, polarity):
     once, doubled = (
         dd.multiple_stripe(wall, records, levels, polarity=polarity, progress=False).fit() for records in (few, twice)
     )
-    plain, known = once.bootstrap(n_resamples=300, seed=3), doubled.bootstrap(n_resamples=300, seed=3)
-    together = doubled.bootstrap(n_resamples=300, seed=3, events=[i // 2 for i in range(len(twice))])
-    alone = doubled.bootstrap(n_resamples=300, seed=3, events=range(len(twice)))
+    plain, known = once.bootstrap(n_resamples=300, rng=3), doubled.bootstrap(n_resamples=300, rng=3)
+    together = doubled.bootstrap(n_resamples=300, rng=3, events=[i // 2 for i in range(len(twice))])
+    alone = doubled.bootstrap(n_resamples=300, rng=3, events=range(len(twice)))
     np.testing.assert_allclose(together.theta, plain.theta, rtol=1e-12)
     np.testing.assert_allclose(known.theta, plain.theta, rtol=1e-12)
     np.testing.assert_allclose(doubled.covariance, once.covariance, rtol=1e-9)
     assert (doubled.clusters, doubled.errors) == (once.clusters, once.errors)
     assert np.nanstd(np.log(alone.theta)) < 0.8 * np.nanstd(np.log(plain.theta))
-    own_names = once.bootstrap(n_resamples=300, seed=3, events=[f"event {i}" for i in range(len(few))])
+    own_names = once.bootstrap(n_resamples=300, rng=3, events=[f"event {i}" for i in range(len(few))])
     np.testing.assert_array_equal(own_names.theta, plain.theta)
     with pytest.raises(dd.errors.InputError, match=f"events: 1 labels for {len(few)} records: must be as many"):
         once.bootstrap(n_resamples=5, events=["a"])
@@ -482,8 +482,8 @@ def test_one_record_cannot_be_drawn_from():
 
 @pytest.mark.parametrize("seed", [-1, "lucky", 1.5])
 def test_wrong_seeds(stripes, seed):
-    with pytest.raises(dd.errors.InputError, match=r"seed = .*: must be an integer, at least 0, a Generator or None"):
-        stripes.fit().bootstrap(n_resamples=5, seed=seed)
+    with pytest.raises(dd.errors.InputError, match=r"rng = .*: must be an integer, at least 0, a Generator or None"):
+        stripes.fit().bootstrap(n_resamples=5, rng=seed)
     with pytest.raises(dd.errors.InputError, match=r"n_resamples = 0: must be an integer, at least 1"):
         stripes.fit().bootstrap(n_resamples=0)
 
@@ -535,7 +535,7 @@ def test_inverse():
         np.log(high / low), 2.0 * stats.norm.ppf(0.975) * np.sqrt(a + 2.0 * b * probit + c * probit**2), rtol=1e-9
     )
     np.testing.assert_allclose(np.sqrt(low * high), curve.ppf(p), rtol=1e-12)
-    part = dataclasses.replace(curve, saturation=0.8)
+    part = dataclasses.replace(curve, upper_asymptote=0.8)
     assert part.ppf(0.4) == pytest.approx(curve.theta, rel=1e-15)
     assert part.ppf([0.8, 0.9]).tolist() == [np.inf, np.inf]
     for wrong in (-0.1, 1.1, np.nan, "half"):
@@ -557,12 +557,12 @@ def test_outcomes_of_any_program(wall, records, polarity):
     curve = stripes.fit()
     own = [records[i] for i in stripes.record_index]
     for whose, events in ((own, None), ([one.name for one in own], [one.event for one in own])):
-        told = dd.fit_fragility(stripes.levels, stripes.collapsed.T, im="pga", records=whose, events=events)
+        told = dd.fit_fragility(stripes.levels, stripes.collapsed, im="pga", records=whose, events=events)
         assert (told.theta, told.beta, told.errors, told.clusters) == (curve.theta, curve.beta, "clustered", 22)
         assert np.array_equal(told.covariance, curve.covariance)
-        drawn, expected = (one.bootstrap(n_resamples=50, seed=3) for one in (told, curve))
+        drawn, expected = (one.bootstrap(n_resamples=50, rng=3) for one in (told, curve))
         assert np.array_equal(drawn.theta, expected.theta, equal_nan=True)
-    again = dd.fit_fragility(stripes.levels, stripes.collapsed.T, im="pga", records=own)
+    again = dd.fit_fragility(stripes.levels, stripes.collapsed, im="pga", records=own)
     assert again.compare(curve).pairing == "paired"
     assert again.compare(curve).ratio_interval == (1.0, 1.0)
 
@@ -570,7 +570,7 @@ def test_outcomes_of_any_program(wall, records, polarity):
 def test_outcomes_that_were_not_run():
     """A history that is missing at some levels counts at the others; without records each stands for itself."""
     gap = np.nan
-    outcomes = np.array([[0, 0, 1, 1], [0, gap, 0, 1], [0, 1, 1, gap], [0, 0, 1, 1], [1, 0, 0, 1], [0, 0, 0, 1.0]])
+    outcomes = np.array([[0, 0, 1, 1], [0, gap, 0, 1], [0, 1, 1, gap], [0, 0, 1, 1], [1, 0, 0, 1], [0, 0, 0, 1.0]]).T
     curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.9], outcomes)
     counts = dd.fit_fragility([0.2, 0.4, 0.6, 0.9], [1, 1, 3, 5], [6, 5, 6, 5])
     assert (curve.theta, curve.beta) == (counts.theta, counts.beta)
@@ -584,8 +584,9 @@ def test_outcomes_that_were_not_run():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"collapses": [[0, 1], [0, 2]]}, "collapses = 2: the outcome of a history must be 0, 1 or NaN"),
-        ({"collapses": [[0, 1, 1]]}, "collapses: 3 columns for 2 levels: must be as many"),
+        ({"collapses": [[0, 0], [1, 2], [1, 1]]}, "collapses = 2: the outcome of a history must be 0, 1 or NaN"),
+        ({"collapses": [[0, 1, 1, 1]]}, r"\(1, 4\) for 3 levels: must be \(levels, histories\), one row for each leve"),
+        ({"collapses": [[0, 1, 1], [0, 0, 1]]}, r"shape \(2, 3\) for 3 levels: .*one row for each level; transpose it"),
         ({"histories": 3}, "histories: only with counts of collapses"),
         ({"records": ["a"]}, "records: 1 for 2 histories: must be as many"),
         ({"records": ["a", 3]}, "records: 3: must be a Record or a name"),
@@ -597,4 +598,30 @@ def test_outcomes_that_were_not_run():
 )
 def test_wrong_outcomes(given, message):
     with pytest.raises(dd.errors.InputError, match=message):
-        dd.fit_fragility(**{"levels": [0.2, 0.4], "collapses": [[0, 1], [0, 1]]} | given)
+        dd.fit_fragility(**{"levels": [0.2, 0.4, 0.6], "collapses": [[0, 0], [0, 1], [1, 1]]} | given)
+
+
+def test_as_many_outcomes_as_levels():
+    """A square of outcomes is levels first, and refused where it may as well be the other way round."""
+    levels = np.array([0.3, 0.5, 0.8, 1.2])
+    outcomes = np.array([[0, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0], [1, 1, 0, 1]])
+    names = ["a", "b", "c", "d"]
+    curve = dd.fit_fragility(levels, outcomes, records=names)
+    counts = dd.fit_fragility(levels, [0, 1, 2, 3], 4)
+    assert (curve.theta, curve.beta, curve.clusters) == (counts.theta, counts.beta, 4)
+    # Levels in another order are the same, with their rows
+    again = dd.fit_fragility(levels[::-1], outcomes[::-1], records=names)
+    assert again.theta == pytest.approx(curve.theta, rel=1e-6)
+    # One level more, or a history: the shape tells
+    assert dd.fit_fragility(levels, np.column_stack([outcomes, outcomes[:, 0]])).clusters == 5
+    # Histories in the order of their strength rise both ways
+    ordered = np.array([[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 1, 1], [0, 0, 1, 1]])
+    for turned in (outcomes.T, ordered, ordered.T):
+        message = r"\(4, 4\) for 4 levels, \(levels, histories\): .*transpose it .*levels\[:, None\]"
+        with pytest.raises(dd.errors.InputError, match=message):
+            dd.fit_fragility(levels, turned, records=names)
+    told = dd.fit_fragility(levels[:, None], ordered, records=names)
+    assert told.theta == dd.fit_fragility(levels, [0, 1, 2, 2], 4).theta
+    # The same either way
+    same = np.array([[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 1, 1], [0, 1, 1, 1]])
+    assert dd.fit_fragility(levels, same).theta == dd.fit_fragility(levels, [0, 1, 2, 3], 4).theta

@@ -137,7 +137,10 @@ def test_population(records, executable, tmp_path):
         ({"period": [0.3, 0.1], **HOUSE}, "participation: must be given of 2 modes"),
         ({"period": 0.3}, "participation: must be given, or storeys, level and building_height in its place"),
         ({"period": 0.3, "storeys": 3, "level": 9.0}, "building_height: must be given, storeys, level and"),
-        ({"period": 0.3, "participation": 1.0, "level": 9.0}, "level = 9: give either participation or storeys"),
+        (
+            {"period": 0.3, "participation": 1.0, "level": 9.0},
+            "participation: give either participation or storeys, level, building_height and level_top",
+        ),
         ({"period": 0.3, **HOUSE, "storeys": 2.5}, "storeys = 2.5: must be an integer"),
     ],
 )

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 
+import numpy as np
 import pytest
 
 import dondolo as dd
@@ -27,12 +28,18 @@ def compiled(root, folder, *sources, options=()):
 
 
 @pytest.mark.slow
-def test_program_with_dondolo(root, records, wall, tmp_path):
-    program = compiled(root, tmp_path, root / "docs/examples/fpm/app/main.f90")
-    said = subprocess.run([program, root / "data/records/synthetic44.csv"], capture_output=True, text=True, check=True)
+def test_program_with_dondolo(root, tmp_path):
+    """Arrays in, a curve out, and nothing of the half of the library that reads files."""
+    source = root / "docs/examples/fpm/app/main.f90"
+    assert re.findall(r"^ *use (\w+)", source.read_text(), re.M) == ["dondolo_core"]
+    said = subprocess.run([compiled(root, tmp_path, source)], capture_output=True, text=True, check=True)
     assert said.stdout in (root / "docs/fortran.md").read_text()
     theta, beta = map(float, re.findall(r"= *([\d.]+)", said.stdout))
-    curve = dd.multiple_stripe(wall, records, levels=[0.4, 0.6, 0.8, 1.0, 1.2], progress=False).fit()
+    time = np.arange(1001) * 0.01
+    packets = [np.sin(2 * np.pi * (0.5 + 0.1 * i) * time) * np.exp(-(((time - 5) / 2) ** 2)) for i in range(1, 21)]
+    records = [dd.Record(packet, 0.01, name=f"packet {i}") for i, packet in enumerate(packets)]
+    wall = dd.OneSidedWall(height=1.5, thickness=0.25)
+    curve = dd.multiple_stripe(wall, records, levels=[0.2, 0.3, 0.4, 0.6, 0.8], progress=False).fit()
     assert (theta, beta) == (pytest.approx(curve.theta, abs=6e-4), pytest.approx(curve.beta, abs=6e-4))
 
 
@@ -89,11 +96,41 @@ def test_a_look_up_without_a_row(root, tmp_path, name):
     """A name of another table is 0 in silence, but in what the tests are built with."""
     source = tmp_path / "look_up.f90"
     source.write_text(LOOK_UP.replace("NAME", name))
-    settings = root / "src/dondolo/base/properties/settings.F90"
+    settings = root / "src/core/base/properties/settings.F90"
     program = compiled(root, tmp_path, settings, source, options=["-DDONDOLO_CHECKED"])
     done = subprocess.run([program], capture_output=True, text=True, check=False)
     refused = "there are no settings 'height'" in done.stderr
     assert (done.returncode == 0, refused) == (name == "rtol", name == "height"), done.stderr
+
+
+NO_CURVE = """
+program no_curve
+   use dondolo_base_kinds, only : wp
+   use dondolo_fragility, only : STATUS, fragility_type
+   implicit none
+
+   type(fragility_type) :: curve
+
+   curve = fragility_type(status=STATUS, theta=0.3_wp, beta=0.5_wp)
+   print '(f3.1)', curve%probability(0.3_wp)
+end program no_curve
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("status", ["fit_ok", "fit_separated"])
+@pytest.mark.parametrize("options", [[], ["-DDONDOLO_CHECKED"]])
+def test_an_invariant_that_does_not_hold(root, tmp_path, status, options):
+    """Builds with checks end where a curve without a fit is asked for a probability; all others never stop."""
+    source = tmp_path / "no_curve.f90"
+    source.write_text(NO_CURVE.replace("STATUS", status))
+    core = root / "src/core"
+    again = (core / "base/numerics/invariant.F90", core / "fragility/fragility.f90")
+    program = compiled(root, tmp_path, *again, source, options=options)
+    done = subprocess.run([program], capture_output=True, text=True, check=False)
+    ends = bool(options) and status != "fit_ok"
+    assert ("a curve whose probability is asked has a fit" in done.stderr, done.returncode != 0) == (ends, ends)
+    assert done.stdout.strip() == ("" if ends else "0.5")
 
 
 def test_the_manifest_uses_the_repository(root):

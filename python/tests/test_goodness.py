@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from dondolo.curves.goodness import _true_outcomes
 from scipy.stats import chi2, norm
 
 import dondolo as dd
+from dondolo.curves.goodness import _true_outcomes
 
 LEVELS = np.array([0.2, 0.3, 0.4, 0.6, 0.8])
 COLLAPSES = np.array([3, 8, 20, 31, 41])
@@ -25,7 +25,7 @@ def stripes_of(rng, n_clusters, levels, *, two_modes=False, noise=0.1):
 
 def curve_of(outcomes, levels):
     records = [f"record {i // 2}" for i in range(len(outcomes))]
-    return dd.fit_fragility(levels, outcomes, records=records)
+    return dd.fit_fragility(levels, outcomes.T, records=records)
 
 
 def regression(levels, collapses, histories, link):
@@ -161,7 +161,7 @@ def test_p_values_are_uniform_under_a_lognormal():
     rng = np.random.default_rng(11)
     found = []
     for _ in range(150):
-        fit = curve_of(stripes_of(rng, 22, levels), levels).goodness_of_fit(n_resamples=99, seed=rng)
+        fit = curve_of(stripes_of(rng, 22, levels), levels).goodness_of_fit(n_resamples=99, rng=rng)
         found.append((fit.p_value, fit.independent_p_value))
     p, independent = np.array(found).T
     assert abs(np.mean(p <= 0.1) - 0.1) < 3.0 * np.sqrt(0.09 / 150)

@@ -9,14 +9,14 @@ import warnings
 
 import numpy as np
 import pytest
+
+import dondolo as dd
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.histories import settings
 from dondolo._fortran.library import check
 from dondolo.records.suite import place_of, upload
 from dondolo.walls.wall import upload as upload_walls
-
-import dondolo as dd
 
 LEVELS = [0.2, 0.6]
 
@@ -147,11 +147,11 @@ def test_a_study_frees_what_it_keeps(few):
     study.run(dd.OneSidedWall(3.0, 0.25), progress=False)
     number = study._request._study.number
     walls = upload_walls((dd.OneSidedWall(3.0, 0.25),))
-    _core.stripes.plan(number, walls.number, 1)
+    _core.stripes.plan(number, walls.number, 1, [])
     gc.disable()
     try:
         del study
-        assert "is not valid" in refusal(_core.stripes.plan, number, walls.number, 1)
+        assert "is not valid" in refusal(_core.stripes.plan, number, walls.number, 1, [])
     finally:
         gc.enable()
 
@@ -167,9 +167,9 @@ def test_use_after_free(few):
     for number in (handle, -1, 0, 1, 2**40, 2**62, walls.number):
         assert "is not valid" in refusal(_core.records.measure_suite, number, b"pga", 1)
     # A study does not outlive its suite, even where another suite has taken its slot.
-    assert "records: handle" in refusal(_core.stripes.plan, study, walls.number, 1)
+    assert "records: handle" in refusal(_core.stripes.plan, study, walls.number, 1, [])
     for given in ((suite, walls.number), (study, study)):
-        assert "is not valid" in refusal(_core.stripes.plan, *given, 1)
+        assert "is not valid" in refusal(_core.stripes.plan, *given, 1, [])
     for procedure in (_core.stores.claim_store, _core.stores.read_store):
         assert "store: handle" in refusal(procedure, other)
     _core.stores.close_store(suite)
@@ -196,7 +196,7 @@ def test_a_study_keeps_its_suite():
     del suite, record
     gc.collect()
     # What is sent ends with the kind of an error, else with the number of names, negative.
-    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1)[-1] <= 0
+    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1, [])[-1] <= 0
 
 
 def test_what_was_uploaded_is_not_pickled(few):

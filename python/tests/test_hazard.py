@@ -196,7 +196,7 @@ def test_openquake(tmp_path):
         ({}, (13.0, 42.0), r"site = \(13, 42\): is not in .*; the nearest is \(13.39, 42.35\)"),
         ({}, "L'Aquila", r"site = \"L'Aquila\": must be \(longitude, latitude\)"),
         ({}, (0.0, 91.0), r"site = \(0, 91\): must be \(longitude, latitude\) in degrees"),
-        ({"imt": "MMI"}, 1, "imt = 'MMI': must be PGA, PGV or SA"),
+        ({"imt": "MMI"}, 1, "imt = 'MMI': must be PGA, PGV, SA"),
         ({"imt": ""}, 1, "must have a comment with imt="),
         ({"time": "none"}, 1, "investigation_time = 'none': must be a number"),
         ({"time": "-1.0"}, 1, "investigation_time = -1: must be positive"),
@@ -270,7 +270,7 @@ lon,lat,depth,poe-3.0,poe-9.0
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("imt='PGV'", "imt='MMI'", "imt = 'MMI': must be PGA, PGV or SA"),
+        ("imt='PGV'", "imt='MMI'", "imt = 'MMI': must be PGA, PGV, SA"),
         ("poe-9.0", "poe-9_0.0", "level = '9_0.0': must be a number"),
         ("poe-9.0", "poe-1e-99999999999999999999", "levels = 0.03, 0: must increase|levels = 0: must be positive"),
         ("0.6,0.2", "0.6,nan", "poe-9.0 = 'nan': must be a number"),

@@ -12,10 +12,10 @@ import warnings
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.analysis.incremental import SHARES, fractiles
 from scipy import optimize, stats
 
 import dondolo as dd
+from dondolo.analysis.incremental import SHARES, fractiles
 
 LEVELS = np.array([0.2, 0.4, 0.6, 0.8, 1.0])
 

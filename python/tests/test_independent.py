@@ -143,7 +143,7 @@ HISTORIES = {
         2.18,
     ),
     "two blocks, sorrentino and factor": (
-        dd.TwoBlockWall(3.0, 0.25, restitution_factor=0.87),
+        dd.TwoBlockWall(3.0, 0.25, hinge=0.5, restitution_factor=0.87),
         independent.two_blocks(3.0, 0.25, 1800.0, hinge=0.5),
         (independent.base_balance, 0.87, (1, -1)),
         2.42,

@@ -275,7 +275,7 @@ def test_comparison_draws_events_together(wall, records):
     twice = [record for record in some for _ in range(2)]
     once, paired = (
         dd.compare_intensities(
-            wall, several, ["pga", "pgv"], n_levels=6, n_resamples=200, seed=3, events=events, progress=False
+            wall, several, ["pga", "pgv"], n_levels=6, n_resamples=200, rng=3, events=events, progress=False
         ).ratio_interval
         for several, events in ((some, None), (twice, [i // 2 for i in range(len(twice))]))
     )

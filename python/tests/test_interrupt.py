@@ -10,12 +10,12 @@ import time
 
 import numpy as np
 import pytest
-from dondolo._base.interrupts import deferred
-from dondolo.analysis import certificate, cloud, overturning, request, stripe_runs
-from dondolo.populations import blocks, study
 from public import public_things
 
 import dondolo as dd
+from dondolo._base.interrupts import deferred
+from dondolo.analysis import certificate, cloud, overturning, request, stripe_runs
+from dondolo.populations import blocks, study, uncertain_wall
 
 # Kicks of the ground start chains of bounces that hardly lose speed: some 40 000 impacts each second of the record
 PROGRAM = """
@@ -410,11 +410,48 @@ def test_an_event_ends_what_runs_several_walls(wall, few, monkeypatch):
     with pytest.raises(dd.errors.Interrupted):
         dd.compare_designs({"bare": wall, "thicker": dd.OneSidedWall(1.5, 0.4)}, few, [0.4, 0.8], **how)
     with pytest.raises(dd.errors.Interrupted):
-        dd.uncertain_wall(wall, few, [0.4, 0.8], sources=sources, n_variants=8, **how)
+        dd.propagate_uncertainty(wall, few, [0.4, 0.8], sources=sources, n_variants=8, **how)
     with pytest.raises(dd.errors.Interrupted):
         dd.weakest_hinge(two_block, few, [0.4, 0.8], hinges=[0.5, 0.6], **how)
     with pytest.raises(dd.errors.Interrupted):
         dd.compare_intensities(wall, few, ["pga"], **how)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_what_several_analyses_have_finished_is_kept(wall, few, monkeypatch):
+    """An event in the last analysis of an uncertain wall, and in the second design: the ones before are there."""
+    stop = threading.Event()
+    how = {"progress": False, "stop": stop}
+    sources = {"thickness": dd.distributions.Uniform(0.24, 0.26)}
+    inner = uncertain_wall.multiple_stripe
+
+    def stopped(*arguments, **named):
+        stop.set()
+        return inner(*arguments, **named)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(uncertain_wall, "multiple_stripe", stopped)
+        with pytest.raises(dd.errors.Interrupted, match="12 of 12 walls are complete; of the estimate") as caught:
+            dd.propagate_uncertainty(wall, few, [0.4, 0.8, 1.2], sources=sources, n_variants=8, **how)
+    whole = dd.typology(caught.value.partial.population, few, [0.4, 0.8, 1.2], progress=False)
+    assert np.array_equal(caught.value.partial.exceedances, whole.exceedances)
+    stop.clear()
+    run = dd.Study.run
+
+    def second(self, wall, **named):
+        if wall.thickness == 0.4:
+            stop.set()
+        return run(self, wall, **named)
+
+    designs = {"bare": wall, "thicker": dd.OneSidedWall(1.5, 0.4), "more": dd.OneSidedWall(1.5, 0.5)}
+    with monkeypatch.context() as patch:
+        patch.setattr(dd.Study, "run", second)
+        with pytest.raises(dd.errors.Interrupted, match="1 of 3 designs are complete; of the next interr") as caught:
+            dd.compare_designs(designs, few, [0.4, 0.8, 1.2], **how)
+    found, alone = caught.value.partial, dd.compare_designs({"bare": wall}, few, [0.4, 0.8, 1.2], progress=False)
+    assert found.names == ("bare",)
+    assert np.array_equal(found.stripes[0].edp, alone.stripes[0].edp)
+    assert np.array_equal(found.typology.exceedances, alone.typology.exceedances)
 
 
 LONG_CASE = """

@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from dondolo.populations.combination import combine
 from test_nrml import check
 
 import dondolo as dd
+from dondolo.populations.combination import combine
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -53,7 +53,7 @@ def facades(recordings, tmp_path_factory):
 
 def agree(people, functions, sentences):
     """Every curve is there, close to the mean where it was not raised, and never below it."""
-    taxonomies = [f"{curve.group or 'population'}/{curve.mechanism}".replace(" ", "_") for curve in people.groups]
+    taxonomies = [f"{curve.group or 'population'}/{curve.mechanism}" for curve in people.groups]
     assert list(functions) == taxonomies
     names = [*(f"edp_{edp:g}".replace(".", "p") for edp in people.edp_thresholds[:-1]), "collapse"]
     for curve, (taxonomy, states) in zip(people.groups, functions.items(), strict=True):
@@ -62,15 +62,17 @@ def agree(people, functions, sentences):
         # They begin where there is next to nothing, and end where there is next to all.
         assert max(state.probability[0] for state in states.values()) <= 1e-9
         for state in states.values():
-            assert state.probability[-1] >= 0.998 * curve.saturation
+            assert state.probability[-1] >= 0.998 * curve.upper_asymptote
         for lighter, heavier in pairwise(states.values()):
             assert np.all(lighter.probability >= heavier.probability)
         for edp, (name, state) in zip(people.edp_thresholds, states.items(), strict=True):
             x = np.geomspace(levels[0], levels[-1], 3001)
             mean = people.at(edp)[curve.mechanism, curve.group](x)
             line = np.interp(x, levels, state.probability)
-            assert np.all(line >= mean - 0.006 * mean - 1e-9)
-            raised = (line - mean).max() > 0.006 * mean[np.argmax(line - mean)] + 1e-4
+            assert 12 <= len(levels) <= 40
+            # Levels are where frequencies need them, and not where a curve bends at probabilities next to 1
+            assert np.all(line >= mean - 0.011)
+            raised = (line - mean).max() > 0.02
             assert not raised or any(one.startswith(f"'{taxonomy}', '{name}': raised") for one in sentences)
 
 
@@ -95,7 +97,7 @@ def test_functions_are_the_mean_curves(which, request, tmp_path):
         mean = frequency(lambda x, of=(curve.mechanism, curve.group): people[of](x))
         levels, p = (np.append(0.0, values) for values in (states["collapse"].levels, states["collapse"].probability))
         lines = frequency(lambda x, levels=levels, p=p: np.interp(x, levels, p))
-        assert lines == pytest.approx(mean, rel=0.002)
+        assert lines == pytest.approx(mean, rel=0.005)
 
 
 def test_states_that_cross_are_raised_and_told(facades):
@@ -141,16 +143,16 @@ def test_walls_without_a_fit(records):
     assert people.curves[0].status == "decreasing"
     functions, sentences = people.nrml_functions()
     curve = functions["population/one_sided"]["collapse"]
-    assert np.interp([0.3, 0.6, 0.9, 0.94], curve.levels, curve.probability).tolist() == [0.5, 1.0, 1.0, 1.0]
-    assert sentences == ["'population/one_sided', 'collapse': raised by up to 0.5, at 0.9 g, where it decreases"]
+    assert np.interp([0.3, 0.6, 0.9, 0.94], curve.levels, curve.probability) == pytest.approx([0.5, 1.0, 1.0, 1.0])
+    assert sentences == ["'population/one_sided', 'collapse': raised by up to 0.5, at 0.94 g, where it decreases"]
 
 
 def test_names(few):
     walls = [dd.OneSidedWall(1.5, 0.25, name=name) for name in "abc"]
-    people = dd.Population(walls, groups=["è", "é", "x y"])
+    people = dd.Population(walls, group_names=["è'a", "è#a", "x y"])
     levels, close = [0.4, 0.6, 0.8, 1.0], [0.1, 0.10000001]
     functions, sentences = dd.typology(people, few, levels, edp_thresholds=close, progress=False).nrml_functions()
-    assert list(functions) == ["population/one_sided", "_/one_sided", "_/one_sided_2", "x_y/one_sided"]
-    assert "'_/one_sided_2': is that of the group 'é'; '_/one_sided' is another group's" in sentences
+    assert list(functions) == ["population/one_sided", "è_a/one_sided", "è_a/one_sided_2", "x y/one_sided"]
+    assert "'è_a/one_sided_2': is that of the group 'è#a'; 'è_a/one_sided' is another group's" in sentences
     # Thresholds that are nearly the same are two states.
-    assert list(functions["_/one_sided"]) == ["edp_0p1", "edp_0p10000001", "collapse"]
+    assert list(functions["è_a/one_sided"]) == ["edp_0p1", "edp_0p10000001", "collapse"]

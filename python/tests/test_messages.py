@@ -11,10 +11,10 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from dondolo.__main__ import main
-from dondolo.errors import visible
 
 import dondolo as dd
+from dondolo.__main__ import main
+from dondolo.errors import visible
 
 # A colour, the title of a window, a mark that turns the direction round, C1, DEL, a separator of lines
 STEERING = "\x1b[31m \x1b]0;x\x07 \u202e \u2066 \x9b \x7f \u2028 \r"

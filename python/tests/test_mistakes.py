@@ -6,9 +6,9 @@ import re
 
 import numpy as np
 import pytest
-from dondolo._fortran import _core
 
 import dondolo as dd
+from dondolo._fortran import _core
 
 WALL = {"mechanism": "'one_sided'", "height": "2.4", "thickness": "0.3"}
 PARTS = {"wall": "", "records": "catalogue = 'records.csv'", "stripes": "levels = 0.3, 0.5, 0.7"}
@@ -183,7 +183,10 @@ def test_building(folder, run):
         ("file,dt_s,units\nr0.txt,0.01,g\u00a0\n", "it has a no-break space (U+00A0)"),
         ("file,dt_s,units\nr0.txt\u200b,0.01,g\n", "no such file; its name has an invisible character (U+200B)"),
         ("file,dt_s,units\u00a0\nr0.txt,0.01,g\n", "has a no-break space (U+00A0)"),
-        ("PK\x03\x04 a workbook\n", "is a workbook of a spreadsheet or another archive: save its table as CSV"),
+        (
+            "PK\x03\x04 docProps xl/workbook.xml\n",
+            "seems to be a workbook of a spreadsheet (xlsx), not a text: save its table as CSV",
+        ),
         ("file,dt_s,units\nr0.txt,1%,g\n", "without a per cent sign"),
     ],
 )
@@ -246,7 +249,7 @@ def test_all_headings_that_are_wrong_are_named(folder, run):
     (folder / "walls.nml").write_text("".join(f"&{name} {text} /\n" for name, text in (PARTS | groups).items() if text))
     assert run("--check", "walls.nml").stderr.splitlines() == [
         "dondolo: walls.csv: column 'mechansm': no such column; did you mean 'mechanism'? dondolo --template typology"
-        " lists all",
+        " lists all; one that is only kept begins with x_ or note",
         "dondolo: walls.csv: column 'thicknes': no such column; did you mean 'thickness'?",
         "dondolo: walls.csv: column 'colour': no such column",
     ]

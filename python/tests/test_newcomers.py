@@ -28,6 +28,11 @@ def cut():
     return [dd.Record(one.acceleration[np.abs(one.acceleration).argmax() :], one.dt, one.name) for one in RECORDS]
 
 
+def upright():
+    """The records as if they were vertical components."""
+    return [dd.Record(one.acceleration, one.dt, one.name, metadata={"component": "BHZ00"}) for one in RECORDS]
+
+
 @pytest.mark.parametrize(
     ("call", "code", "words"),
     [
@@ -50,6 +55,12 @@ def cut():
             "of 12 records = * time step too small, 0.001 s of",
         ),
         (lambda: run(records=cut()), "record_start", "begins at * % of its PGA: triggered late, or cut? (12 of 12"),
+        (
+            lambda: run(records=upright()),
+            "record_vertical",
+            "by 'BHZ00', and moves the wall as if * (12 of 12 records)",
+        ),
+        (lambda: dd.simulate(WALL, upright()[0]), "record_vertical", "is a vertical component, by 'BHZ00'"),
         (lambda: run(records=RECORDS[0]).fit(), "separated", "no curve is fitted"),
         (lambda: run().fit_damage_states([0.02, 0.05]), "all_collapse", "damage state 0.02 in place of collapse"),
     ],
@@ -158,3 +169,58 @@ def test_one_record(polarity, tmp_path):
     with pytest.warns(dd.errors.DondoloWarning) as caught:
         stripes.fit()
     assert [one.message for one in caught] == [of_case]
+
+
+class Quantity(np.ndarray):
+    """An array with a unit, as packages of units have it."""
+
+    def __new__(cls, values, unit):
+        made = np.asarray(values, dtype=float).view(cls)
+        made.unit = unit
+        return made
+
+    def __array_finalize__(self, other):
+        self.unit = getattr(other, "unit", None)
+
+
+class Scalar(float):
+    """A number with a unit of another package."""
+
+    units = "millisecond"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: dd.Record(Quantity([0.0, 150.0, -90.0], "cm / s2"), 0.01),
+        lambda: dd.Record([0.0, 1.5, -0.9], Scalar(10.0)),
+        lambda: dd.Record([0.0, 1.5, -0.9], Quantity(10.0, "ms")),
+        lambda: dd.Record([0.0, 1.5, -0.9], 0.01, vertical=Quantity([0.0, 15.0, -9.0], "cm / s2")),
+        lambda: dd.read_records("never.txt", dt=Scalar(10.0)),
+        lambda: dd.OneSidedWall(Quantity(300.0, "cm"), 0.25),
+        lambda: dd.OneSidedWall(3.0, Scalar(25.0)),
+        lambda: dd.TwoBlockWall(3.0, 0.25, overburden=Quantity(5.0, "kN / m")),
+        lambda: run(levels=Quantity([1.0, 2.0], "m / s2")),
+        lambda: run(levels=[Scalar(0.5), Scalar(0.9)]),
+        lambda: dd.HazardCurve(Quantity([0.1, 0.5], "m / s2"), [1e-2, 1e-3]),
+        lambda: dd.Site(Quantity(0.2, "m / s2"), 2.4, 0.3),
+        lambda: RECORDS[0].spectrum(Quantity([100.0, 500.0], "ms")),
+        lambda: RECORDS[0].resample(Scalar(5.0)),
+        lambda: RECORDS[0].with_vertical(RECORDS[0], factor=Quantity(50.0, "%")),
+        lambda: dd.fit_fragility(Quantity([1.0, 2.0, 3.0], "m / s2"), [0, 5, 10], 10),
+        lambda: dd.distributions.Normal(Quantity(3.0, "m"), 0.1),
+        lambda: dd.Building(Scalar(300.0), storeys=3, level=6.0, building_height=9.0),
+    ],
+)
+def test_units_are_not_stripped(call):
+    """One rule for numbers and arrays: what has a unit is refused, with what to write."""
+    with pytest.raises(dd.errors.InputError, match=r"has the unit '.*': must be plain numbers .*to_value\(unit\)"):
+        call()
+
+
+def test_numbers_without_a_unit_are_plain():
+    """As ratios of quantities are, and the columns of a table that has one of the name unit."""
+    plain = dd.Record(Quantity([0.0, 1.5, -0.9], ""), Quantity(0.01, "dimensionless"))
+    assert plain.peak_acceleration == 1.5
+    pandas = pytest.importorskip("pandas")
+    assert dd.Record(pandas.Series([0.5, 1.0], index=["unit", "units"]), 0.01).peak_acceleration == 1.0

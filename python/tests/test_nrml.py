@@ -40,7 +40,6 @@ def check(path):
     description, states, *functions = model
     assert description.tag == SPACE + "description"
     assert description.text.strip()
-    assert description.text.isascii()
     assert states.tag == SPACE + "limitStates"
     names = states.text.split()
     assert names
@@ -146,7 +145,7 @@ def test_units(path):
     assert found["v"][1]["collapse"](40.0) == pytest.approx(0.5)
     assert found["s"][1]["collapse"](0.4) == pytest.approx(0.5)
     np.testing.assert_allclose(found["d"][1]["collapse"]([20.0, 35.0, 50.0]), [0.1, 0.4, 0.7])
-    for im in ("arias", "cav", "hi", "pgd", "saavg(0.2:2)", "pga/a0", ""):
+    for im in ("arias", "cav", "hi", "pgd", "pga/a0", ""):
         with pytest.raises(
             dd.errors.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for OpenQuake")
         ):
@@ -192,6 +191,102 @@ def test_range(path):
             dd.write_nrml(path, {"a": curves}, **options)
     with pytest.raises(dd.errors.InputError, match=r"no_damage_limit = 0.3: must be below the lowest level, 0.2"):
         dd.write_nrml(path, {"a": {"c": DiscreteFragility([0.2, 0.4], [0.1, 0.6])}}, no_damage_limit=0.3)
+
+
+def suggested(path):
+    """Levels of the hazard that the engine suggests for a model of one function: 20 between the first and the last."""
+    imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
+    levels = [float(word) for word in imls.text.split()]
+    # Of 0, and of no limit, the engine makes 1e-10.
+    return np.geomspace(min(levels[0], float(imls.get("noDamageLimit", 0.0)) or 1e-10) or 1e-10, levels[-1], 20)
+
+
+def risk_at(levels, curve, k=2.5):
+    """The damage frequency as the engine sums it: of each interval of hazard x^-k the probability at its middle."""
+    hazard = 1e-4 * np.asarray(levels) ** -k
+    middle = 0.5 * (hazard[1:] + hazard[:-1])
+    occurrence = -np.diff(np.concatenate([[hazard[0]], middle, [hazard[-1]]]))
+    return float(occurrence @ curve(levels))
+
+
+def test_discrete_functions_begin_at_next_to_no_damage(path):
+    """At 1e-9 or less, the limit just below it, so that the engine's levels lie where the curve is."""
+    truth = lognormal(0.55, 0.37)
+    levels = np.geomspace(0.05, 3.0, 60)
+    curve = DiscreteFragility(levels, truth(levels))
+    curve.to_nrml(path, taxonomy="w")
+    imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
+    first, limit = float(imls.text.split()[0]), float(imls.get("noDamageLimit"))
+    assert first == levels[0]
+    assert 0.99 * first < limit < first
+    fine = risk_at(np.geomspace(0.05, 3.0, 4000), truth)
+    assert risk_at(suggested(path), truth) == pytest.approx(fine, rel=0.35)
+    assert risk_at(np.geomspace(1e-10, 3.0, 20), truth) > 1.7 * fine
+    again = dd.read_nrml(path).functions["w"]["collapse"]
+    np.testing.assert_array_equal(again.levels, levels)
+    x = np.linspace(0.0, 4.0, 900)
+    np.testing.assert_allclose(again(x), curve(x), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("beta", [0.3, 0.4, 0.45])
+def test_levels_that_the_engine_suggests(path, beta):
+    """Frequencies by its 20 levels are within 6 %, and by 60 within 1 %."""
+    truth = dd.Fragility.of_parameters(0.6, beta, im="pga")
+    dd.FunctionFragility(truth).to_nrml(path)
+    found = dd.read_nrml(path).functions["walls"]["collapse"]
+    levels = suggested(path)
+    fine = np.geomspace(levels[0], levels[-1], 20_000)
+    exact = risk_at(fine, truth)
+    assert risk_at(levels, found) == pytest.approx(exact, rel=0.06)
+    assert risk_at(np.geomspace(levels[0], levels[-1], 60), found) == pytest.approx(exact, rel=0.01)
+    assert risk_at(np.geomspace(levels[0], levels[-1], 300), found) == pytest.approx(exact, rel=0.003)
+
+
+@pytest.mark.parametrize("zero", [False, True])
+def test_a_line_from_no_intensity_is_said(zero, path):
+    """It reaches 1e-9 far below the other levels, where the engine's are too far apart; a limit is the remedy."""
+    levels, p = ([0.0, 0.2, 0.4], [0.0, 0.1, 0.6]) if zero else ([0.2, 0.4], [0.1, 0.6])
+    curve = DiscreteFragility(levels, p, im="pgv")
+    with pytest.warns(
+        dd.errors.DondoloWarning, match=r"taxonomy 'c': has a probability of 0\.1 .*: give no_damage_limit"
+    ) as w:
+        dd.write_nrml(path, {"c": {"light": curve, "heavy": DiscreteFragility(levels, 0.5 * np.array(p), im="pgv")}})
+    assert w[0].message.code == "begins_at_no_intensity"
+    found = dd.read_nrml(path).functions["c"]
+    x = np.linspace(0.0, 0.5, 101)
+    np.testing.assert_allclose(found["light"](x), curve(x), rtol=0, atol=1e-9)
+    assert found["light"].levels.tolist() == [pytest.approx(2e-9), 0.2, 0.4]
+    assert found["light"].probability[0] <= 1e-9
+    # With a limit that is given, or that the curve has, nothing is added.
+    for curves, given in ((curve, 0.1), (DiscreteFragility(levels[-2:], p[-2:], im="pgv", no_damage_limit=0.1), None)):
+        if not zero:
+            dd.write_nrml(path, {"c": {"light": curves}}, no_damage_limit=given)
+            assert dd.read_nrml(path).functions["c"]["light"].levels.tolist() == levels
+            assert dd.read_nrml(path).limits["c"] == (0.1, None, None)
+
+
+def test_zeros_of_others_are_no_limits(path):
+    """What the engine takes for 1e-10 is written again as the curve is."""
+    truth = lognormal(0.5, 0.4)
+    levels = np.append(0.0, np.geomspace(0.04, 2.0, 40))
+    curve = DiscreteFragility(levels, np.append(0.0, truth(levels[1:])), no_damage_limit=0.0)
+    curve.to_nrml(path, taxonomy="w")
+    found = dd.read_nrml(path).functions["w"]["collapse"]
+    assert found.levels[0] > 0.03
+    assert 0.03 < found.no_damage_limit < found.levels[0]
+    text = path.read_text()
+    assert 'noDamageLimit="0.0"' not in text
+
+
+def test_wide_curves_of_populations_begin_low_enough(path):
+    """A dispersion of 1.3: 1e-9 is at 4e-4 of the median, below a thousandth of the lowest level."""
+    from dondolo.curves.straight_lines import straight_lines
+
+    wide = dd.Fragility.of_parameters(0.8, 1.3, im="pga")
+    levels, p = straight_lines(lambda x: np.array([wide(x)]), np.array([1.0, 2.0]))
+    assert p[0, 0] <= 1e-9
+    x = np.geomspace(levels[0], 20.0, 500)
+    np.testing.assert_allclose(np.interp(x, levels, p[0]), wide(x), rtol=0.006, atol=2e-9)
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
@@ -267,8 +362,7 @@ def test_an_unseen_crossing_cuts_nothing_of_other_states(path):
             lift = np.interp(x, np.append(0.0, found[state].levels), np.append(0.0, found[state].probability)) - curve(
                 x
             )
-            assert np.abs(lift).max() < 0.005
-            assert (lift > -0.005 * curve(x) - 2e-9).all()
+            assert np.abs(lift).max() < 0.008
 
 
 def test_crossing_probabilities(path):
@@ -287,10 +381,9 @@ def test_names(path):
         ({"id": ""}, "id = ''"),
         ({"id": 101 * "a"}, "id = "),
         ({"description": " "}, "description"),
-        ({"description": "città"}, "description"),
-        ({"description": "a\x01b"}, r"description = 'a\\x01b': must be a string in printable ASCII"),
-        ({"description": None}, "description = None: must be a string in printable ASCII"),
-        ({"asset_category": "a\x08b"}, r"asset_category = 'a\\x08b': must be a string in printable ASCII"),
+        ({"description": "a\x01b"}, r"description = 'a\\x01b': must be a string of printable characters"),
+        ({"description": None}, "description = None: must be a string of printable characters"),
+        ({"asset_category": "a\x08b"}, r"asset_category = 'a\\x08b': must be a string of printable characters"),
         ({"id": 5}, "id = 5: must be of letters"),
         ({"asset_category": ""}, "asset_category"),
         ({"loss_category": "walls"}, "loss_category = 'walls': must be one of 'structural', 'nonstructural'"),
@@ -299,12 +392,17 @@ def test_names(path):
             dd.write_nrml(path, good, **options)
     for functions, sentence in (
         ({}, "functions: must be a mapping"),
-        ({"a b": {"collapse": curve}}, "taxonomy 'a b'"),
+        ({" a": {"collapse": curve}}, "taxonomy ' a'"),
+        ({"a\tb": {"collapse": curve}}, r"taxonomy 'a\\tb'"),
+        ({"a'b": {"collapse": curve}}, 'taxonomy "a\'b"'),
+        ({"": {"collapse": curve}}, "taxonomy ''"),
         ({"a#b": {"collapse": curve}}, "taxonomy 'a#b'"),
         ({"a": {}}, "must be a mapping of limit states"),
         ({"a": curve}, "must be a mapping of limit states"),
         ({"a": {"near collapse": curve}}, "limit state 'near collapse'"),
         ({"a": {"no_damage": curve}}, "limit state 'no_damage'"),
+        ({"a": {76 * "x": curve}}, "at most 75"),
+        ({"a": {"metà": curve}}, "limit state 'metà'"),
         ({"a": {"x": curve}, "b": {"y": curve}}, "taxonomy 'b': has the limit states y: must be x"),
         ({"a": {"x": curve, "y": curve}, "b": {"y": curve, "x": curve}}, "has the limit states y, x: must be x, y"),
         ({"a": {"x": curve, "y": DiscreteFragility([0.1, 0.2], [0, 1])}}, "must be all Fragility or all"),
@@ -316,6 +414,55 @@ def test_names(path):
     assert not path.exists()
     dd.write_nrml(path, {"<&>": {"collapse": curve}}, description="walls < 3 m & parapets")
     assert list(check(path)) == ["<&>"]
+    # Accents and blanks, which the engine takes
+    dd.write_nrml(path, {"città vecchia/Nähe": {"collapse": curve}}, description="metà della città")
+    assert list(check(path)) == ["città vecchia/Nähe"]
+    found = dd.read_nrml(path)
+    assert list(found.functions) == ["città vecchia/Nähe"]
+    assert found.description == "metà della città"
+
+
+def test_average_accelerations_are_named(path):
+    """OpenQuake's name has no periods: the file keeps them in a comment, and another's file needs them."""
+    curve = lognormal(0.4, 0.3, "saavg(0.2:2)")
+    other = {"a": {"collapse": curve}, "b": {"collapse": lognormal(0.5, 0.3)}}
+    with pytest.raises(dd.errors.InputError, match=r"imt is not given: must be 'AvgSA' or 'AvgSA\(T\)' for saavg"):
+        dd.write_nrml(path, other)
+    with pytest.raises(dd.errors.InputError, match="imt = 'PGA': must be 'AvgSA'"):
+        dd.write_nrml(path, other, imt="PGA")
+    with pytest.raises(dd.errors.InputError, match="imt = 'AvgSA': must be left out"):
+        dd.write_nrml(path, {"b": other["b"]}, imt="AvgSA")
+    for imt in ("AvgSA", "AvgSA(0.5)"):
+        dd.write_nrml(path, other, imt=imt)
+        imls = [one.get("imt") for one in ElementTree.parse(path).getroot().iter(f"{SPACE}imls")]
+        assert imls == [imt, "PGA"]
+        found = dd.read_nrml(path)
+        assert [one["collapse"].im for one in found.functions.values()] == ["saavg(0.2:2)", "pga"]
+        found.write(path)
+        assert dd.read_nrml(path).imts == {"a": imt}
+    path.write_text(re.sub("<!-- AvgSA.*?-->", "", path.read_text()))
+    with pytest.raises(dd.errors.InputError, match=r"im of AvgSA\(0.5\): must be given as 'saavg\(T1:T2\)'"):
+        dd.read_nrml(path)
+    assert dd.read_nrml(path, im="saavg(0.3:1)").functions["a"]["collapse"].im == "saavg(0.3:1)"
+
+
+@pytest.mark.parametrize("beta", [0.2, 0.35, 0.6, 1.0])
+def test_few_levels_give_the_frequencies(beta):
+    """12 to 40 levels, close to the curve where its risk comes from: frequencies by quadrature over ln x."""
+    from dondolo.curves.straight_lines import few_straight_lines
+
+    states = [dd.Fragility.of_parameters(theta, beta, im="pga") for theta in (0.4, 0.7)]
+    levels, p = few_straight_lines(lambda x: np.array([one(x) for one in states]), np.array([0.4, 0.6, 0.8]))
+    assert 12 <= len(levels) <= 40
+    assert p[:, 0].max() <= 1e-9
+    x = np.geomspace(levels[0], levels[-1], 40001)
+    for state, found in zip(states, p, strict=True):
+        lines = np.interp(x, levels, found)
+        assert np.abs(lines - state(x)).max() < 0.03
+        for k in (1.0, 2.0, 2.5):
+            weight = x**-k
+            share = np.trapezoid(lines * weight, np.log(x)) / np.trapezoid(state(x) * weight, np.log(x))
+            assert share == pytest.approx(1.0, abs=0.004 if beta < 0.7 else 0.015)
 
 
 def test_without_a_fit(path, tmp_path):
@@ -392,8 +539,12 @@ def same(one, other):
                 np.testing.assert_array_equal(getattr(curve, name), getattr(twin, name))
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_round_trip(path, tmp_path):
-    """What is read is what was written, to the bit, in other units too; and is written as the same bytes."""
+    """What is read is what was written, to the bit, in other units too; and is written as the same bytes.
+
+    Lines from no intensity have one level more, at which they have 1e-9.
+    """
     rng = np.random.default_rng(2)
     functions = {
         f"{im}-{i}": {"c": dd.Fragility.of_parameters(*np.exp(rng.normal(size=2) - 1.0), im=im)}
@@ -408,8 +559,8 @@ def test_round_trip(path, tmp_path):
     model = dd.read_nrml(path)
     for taxonomy, curves in functions.items():
         for name in ("theta", "beta") if isinstance(curves["c"], dd.Fragility) else ("levels", "probability"):
-            np.testing.assert_array_equal(getattr(model.functions[taxonomy]["c"], name), getattr(curves["c"], name))
-    assert model.limits["levels-pga"] == (None, None, None)
+            given, found = getattr(curves["c"], name), getattr(model.functions[taxonomy]["c"], name)
+            np.testing.assert_array_equal(found[1:] if name == "levels" or name == "probability" else found, given)
     before = path.read_bytes()
     model.write(tmp_path / "again.xml")
     assert (tmp_path / "again.xml").read_bytes() == before
@@ -452,7 +603,7 @@ def test_models_of_others(path, tmp_path):
         ("LS1 LS2\n", "LS1 LS1\n", "limitStates: must be names, each once"),
         ('id="UNM/C_LR/GOV2"', 'id="RC"', "fragilityFunction 'RC': is a duplicate"),
         ('format="discrete"', 'format="tabular"', "format = 'tabular': must be continuous or discrete"),
-        ('imt="PGA"', 'imt="MMI"', "fragilityFunction 'RC': imt = 'MMI': must be PGA, PGV or SA"),
+        ('imt="PGA"', 'imt="MMI"', "fragilityFunction 'RC': imt = 'MMI': must be PGA, PGV, SA"),
         ('<poes ls="LS1">', '<poes ls="LS3">', "has the limit states LS3 LS2: must be LS1 LS2"),
         ("0.74 0.99", "0.74", "limit state 'LS1': 4 levels, 3 probabilities"),
         ("0.74 0.99", "0.99 0.74", "probability = 0.99, 0.74: must not decrease"),

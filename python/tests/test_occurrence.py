@@ -6,13 +6,13 @@ import subprocess
 
 import numpy as np
 import pytest
-from dondolo.curves.bootstrap import draw_records
-from dondolo.populations.combination import combine_rows
 from scipy.integrate import quad
 from study import same_tables
 from test_routes import NOT_IN_FILES, WRITTEN_ALONE, differences
 
 import dondolo as dd
+from dondolo.curves.bootstrap import draw_records
+from dondolo.populations.combination import combine_rows
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -95,19 +95,19 @@ def test_exact(people, found):
     weights = people.weights[people.first_rows]
     for name, fraction in same.items():
         wall = found.combined[name]
-        assert np.allclose(wall.saturation * wall.collapses / wall.histories, product[name], rtol=0, atol=1e-14)
-        assert wall.saturation == pytest.approx(sum(p for p, _ in WALLS[name]), abs=1e-15)
+        assert np.allclose(wall.upper_asymptote * wall.collapses / wall.histories, product[name], rtol=0, atol=1e-14)
+        assert wall.upper_asymptote == pytest.approx(sum(p for p, _ in WALLS[name]), abs=1e-15)
         if name != "e":
             union = found.unions[name]
-            assert np.allclose(union.saturation * union.collapses / union.histories, fraction, rtol=0, atol=1e-14)
+            assert np.allclose(union.upper_asymptote * union.collapses / union.histories, fraction, rtol=0, atol=1e-14)
     mean = np.average(list(product.values()), axis=0, weights=weights)
     assert np.allclose(found["all"].mean_fraction, mean, rtol=0, atol=1e-14)
-    assert found["all"].saturation == pytest.approx(
+    assert found["all"].upper_asymptote == pytest.approx(
         np.average([sum(p for p, _ in ways) for ways in WALLS.values()], weights=weights), abs=1e-15
     )
     union = found.group_unions[""]
     mean = np.average(list(same.values()), axis=0, weights=weights)
-    assert np.allclose(union.saturation * union.collapses / union.histories, mean, rtol=0, atol=1e-14)
+    assert np.allclose(union.upper_asymptote * union.collapses / union.histories, mean, rtol=0, atol=1e-14)
     # Fractiles are those of six walls, none of a row
     chances = [
         sum(p * (1.0 - np.prod([1.0 - found.curves[row](0.8) for row in rows])) for p, rows in ways)
@@ -148,7 +148,7 @@ def test_monte_carlo(found, exclusive):
             occurs = rng.random((len(rows), DRAWS)) < people.p_occ[rows, None]
         collapsed = (counted & occurs[:, None]).any(axis=0)
         curve = found.unions[name] if name in found.unions else found.combined[name]
-        expected = curve.saturation * curve.collapses / curve.histories
+        expected = curve.upper_asymptote * curve.collapses / curve.histories
         error = np.sqrt(np.maximum(expected * (1.0 - expected), 1e-12) / DRAWS)
         assert np.all(np.abs(collapsed.mean(axis=-1) - expected) <= 4.0 * error), name
 
@@ -194,8 +194,8 @@ def test_alike_alternatives_are_one_wall(records):
             assert {part.kind: len(part.changes) for part in theirs.fit.parts} == {
                 part.kind: len(part.changes) for part in mine.fit.parts
             }
-            again = theirs.bootstrap(n_resamples=50, seed=1)
-            assert np.allclose(again.theta, mine.bootstrap(n_resamples=50, seed=1).theta, rtol=1e-6)
+            again = theirs.bootstrap(n_resamples=50, rng=1)
+            assert np.allclose(again.theta, mine.bootstrap(n_resamples=50, rng=1).theta, rtol=1e-6)
             risk, expected = theirs.risk(hazard), mine.risk(hazard)
             assert risk.annual_frequency == pytest.approx(expected.annual_frequency, rel=1e-9)
             assert risk.probability(50) == pytest.approx(expected.probability(50), rel=1e-9)
@@ -224,9 +224,9 @@ def test_errors_by_leaving_out(people, found):
 @pytest.mark.parametrize("group", ["", "low", "high"])
 def test_bootstrap_by_brute_force(people, found, group):
     """Wall by wall and sample by sample, records and walls drawn with the same random numbers."""
-    names = [name for name in WALLS if group in ("", people.groups[WALLS[name][0][1][0]])]
+    names = [name for name in WALLS if group in ("", people.group_names[WALLS[name][0][1][0]])]
     samples, labels = 20, found.flags.labels
-    boot = found["all", group].bootstrap(n_resamples=samples, seed=5)
+    boot = found["all", group].bootstrap(n_resamples=samples, rng=5)
     generator = np.random.default_rng(5)
     drawn = draw_records(found.flags.clusters, samples, generator)
     assert len(labels) > 2
@@ -313,8 +313,8 @@ def test_case_without_a_column(ran, root, tmp_path):
         results[word] = dd.run_case(tmp_path / "case.nml", progress=False)
         assert results[word].run.settings["population"]["occurrence"] == word
         assert results[word].typology.population.occurrence == (word,) * 3
-    assert results["exclusive"].typology["all"].saturation == pytest.approx((3 * 0.9 + 0.9) / 4)
-    assert results["independent"].typology["all"].saturation == pytest.approx((3 * 0.72 + 0.9) / 4)
+    assert results["exclusive"].typology["all"].upper_asymptote == pytest.approx((3 * 0.9 + 0.9) / 4)
+    assert results["independent"].typology["all"].upper_asymptote == pytest.approx((3 * 0.72 + 0.9) / 4)
     people = dd.Population.from_csv(tmp_path / "walls.csv", occurrence="exclusive")
     assert people.occurrence == ("exclusive",) * 3
 

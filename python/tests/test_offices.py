@@ -147,6 +147,37 @@ def test_a_workbook_has_its_suffix(run):
         dd.write_workbook(run, run.with_name("wall.xls"))
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+@pytest.mark.parametrize("share", [0.3, 0.9])
+def test_a_workbook_without_room_is_one_line(share, run, tmp_path):
+    """Files that may not be as long as the workbook: nothing is written, and nothing else is said."""
+    pytest.importorskip("xlsxwriter")
+    dd.write_workbook(run, tmp_path / "whole.xlsx")
+    size = int(share * (tmp_path / "whole.xlsx").stat().st_size / 1024.0)
+    limited = ["bash", "-c", f'ulimit -f {size}; exec "$@"', "bash", sys.executable, "-m", "dondolo", "xlsx", run]
+    done = subprocess.run([*limited, "-o", tmp_path / "a.xlsx"], capture_output=True, text=True, check=False)
+    (line,) = done.stderr.splitlines()
+    assert done.returncode == 1
+    assert re.fullmatch(r"dondolo: .*a\.xlsx: .*cannot be written.*: File too large", line)
+    assert [path.name for path in tmp_path.glob("*.xlsx*")] == ["whole.xlsx"]
+
+
+def test_a_full_disk_leaves_no_workbook(run, tmp_path, monkeypatch):
+    """The disk is full when the workbook takes its place: what packs it has nothing half open."""
+    pytest.importorskip("xlsxwriter")
+    from pathlib import Path
+
+    def full(self, content):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    unraisable = []
+    monkeypatch.setattr(sys, "unraisablehook", unraisable.append)
+    with pytest.raises(dd.errors.DondoloError, match=r"a\.xlsx: cannot be written: No space left on device"):
+        dd.write_workbook(run, tmp_path / "a.xlsx")
+    assert (list(tmp_path.glob("*.xlsx*")), unraisable) == ([], [])
+
+
 def test_no_xlsxwriter(run, monkeypatch):
     monkeypatch.setitem(sys.modules, "xlsxwriter", None)
     with pytest.raises(dd.errors.DondoloError, match="XlsxWriter is not installed"):
@@ -197,3 +228,62 @@ def test_commands_are_those_of_the_executable(executable):
 
     (commands,) = (action.choices for action in _parser()._actions if action.choices)
     assert sorted(offered) == sorted(commands)
+
+
+NAMES = ["1.1", "1.10", "1.2", "2E1", "007", "-0.5", "1e400"]
+
+
+def _table(path):
+    groups = ["1", "1.0", "01", "1", "1.0", "01", "1"]
+    rows = "".join(f"{name},{group},one_sided,{1.5 + 0.1 * i},0.25\n" for i, (name, group) in enumerate(
+        zip(NAMES, groups, strict=True)))  # fmt: skip
+    path.write_text("name,group,mechanism,height,thickness\n" + rows)
+    return groups
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+@pytest.mark.parametrize("lang", ["en", "it"])
+def test_names_that_look_like_numbers(lang, executable, root, tmp_path):
+    """Texts stay texts by every route: workbook, frames, results read and written again."""
+    openpyxl = pytest.importorskip("openpyxl")
+    groups = _table(tmp_path / "walls.csv")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' / &population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' / &stripes levels = 0.6, 0.8, 1.0, 1.2 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True, capture_output=True)
+    found = dd.read_results(tmp_path / "out")
+    found.write_results(tmp_path / "again")
+    for prefix in ("out", "again"):
+        dd.write_workbook(tmp_path / prefix, tmp_path / f"{prefix}.xlsx", lang=lang)
+        book = openpyxl.load_workbook(tmp_path / f"{prefix}.xlsx")
+        sheet = book["pareti" if lang == "it" else "walls"]
+        head, *rows = sheet.iter_rows()
+        for title, expected in (("wall", NAMES), ("group", groups)):
+            italian = {"wall": "parete", "group": "gruppo"}[title]
+            at = [cell.value for cell in head].index(italian if lang == "it" else title)
+            assert [(row[at].value, row[at].data_type) for row in rows] == [(one, "s") for one in expected]
+        heights = [row[2].value for row in rows]
+        assert all(isinstance(one, int | float) for one in heights)
+    pandas = pytest.importorskip("pandas")
+    assert found.population.to_frame()["wall"].tolist() == NAMES
+    assert found.typology.to_frame("fragility")["wall"].tolist() == NAMES
+    # As the page says
+    kinds = {"wall": str, "group": str}
+    frame = pandas.read_csv(tmp_path / "out_walls.csv", comment="#", dtype=kinds)
+    assert (frame["wall"].tolist(), frame["group"].tolist()) == (NAMES, groups)
+
+
+def test_a_frame_with_names_that_are_floats(tmp_path):
+    """Pandas reads 1.10 as 1.1: a float is no name."""
+    pandas = pytest.importorskip("pandas")
+    _table(tmp_path / "walls.csv")
+    frame = pandas.read_csv(tmp_path / "walls.csv", dtype={"name": str, "group": str})
+    assert [wall.name for wall in dd.Population.from_frame(frame).walls] == NAMES
+    for column in ("name", "group"):
+        wrong = frame.assign(**{column: [0.1 * i for i in range(len(frame))]})
+        message = rf"frame\.iloc\[0\]: {column} = 0\.0: must be a string .*dtype=\{{'{column}': str\}}"
+        with pytest.raises(dd.errors.InputError, match=message):
+            dd.Population.from_frame(wrong)
+    # Whole numbers have one form
+    assert dd.Population.from_frame(frame.assign(name=range(len(frame))))[3].name == "3"

@@ -9,10 +9,10 @@ import warnings
 
 import numpy as np
 import pytest
-from dondolo.__main__ import main
-from dondolo._fortran.files import whole_file
 
 import dondolo as dd
+from dondolo.__main__ import main
+from dondolo._fortran.files import whole_file
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 

@@ -297,6 +297,37 @@ def test_a_building_is_drawn_where_there_is_one(visit):
     assert "Edificio" in page.text_content("#wall")
 
 
+def test_the_building_at_the_limit_states(visit):
+    """Period and damping of the building for each state: the check of the page follows, and goes back."""
+    page = visit()
+    settled(page)
+    page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+    assert page.locator("text=+ edificio agli stati limite").count() == 0
+    page.click("text=colloca su un edificio")
+    page.fill("[data-name='building.level'] input[type=text]", "3")
+    page.press("[data-name='building.level'] input[type=text]", "Enter")
+    settled(page)
+    searched = page.text_content("#check")
+    page.click("text=+ edificio agli stati limite")
+    settled(page)
+    assert page.locator("[data-name='check.building_period']").count() == 3
+    assert page.locator("[data-name='check.building_damping']").count() == 3
+    for place, (period, damping) in enumerate((("0,3", "5"), ("0,5", "12"), ("0,6", "20"))):
+        for name, value in (("building_period", period), ("building_damping", damping)):
+            box = f"[data-name='check.{name}'] >> nth={place} >> input[type=text]"
+            page.fill(box, value)
+            page.press(box, "Enter")
+    settled(page)
+    given = page.text_content("#check")
+    assert given != searched
+    text = page.text_content("#text")
+    assert re.search(r"building_period\s*=\s*0\.3, 0\.5, 0\.6", text)
+    assert re.search(r"building_damping\s*=\s*0\.05, 0\.12, 0\.2", text)
+    page.click("text=edificio peggiore >> nth=-1")
+    settled(page)
+    assert page.text_content("#check") == searched
+
+
 # Words that are seen, and those of tooltips; of the case its comments, of the records and the catalogue nothing
 WORDS = """
 (() => {
@@ -315,8 +346,12 @@ WORDS = """
 SHARED = set(
     re.findall(
         r"\w+",
-        "dondolo word nml svg ntc circolare sld slv slc fc f₀ α₀ rk lanes pga pgv pgd sa saavg arias trapz cav hi"
-        " pa mpa gpa mm cm m³ kn kg ms in per base all no file case",
+        "dondolo word nml svg ntc circolare sld slv slc fc f₀ α₀ t₁ rk lanes pga pgv pgd sa saavg arias trapz cav hi"
+        # Classes of use, levels of knowledge and the name of a wall that has none
+        " ii iii iv lc wall"
+        " pa mpa gpa mm cm m³ s² kn kg ms deg in per base all no file case"
+        # Coordinates to the east and to the north are so in both languages
+        " positive",
     )
 )
 
@@ -387,7 +422,7 @@ def test_refusals_are_italian(visit):
     """The sentence of a refusal has no word of the library's English one, but for names: of each field and part."""
     page = visit()
     tables = page.evaluate("fetch('begin').then((one) => one.json()).then((one) => one.properties)")
-    names = {part for table in tables.values() for name, row in table.items() for part in [name, *row["choices"]]}
+    names = {one.lower() for table in tables.values() for name, row in table.items() for one in [name, *row["choices"]]}
     found = page.evaluate(REFUSALS, list(states(tables)))
     assert len(found) > 1000
     for italian, english in found:
@@ -436,6 +471,8 @@ def test_a_key_asks_once(visit):
     settled(page)
     page.focus("[data-name='wall.thickness'] input[type=range]")
     page.evaluate("performance.clearResourceTimings()")
+    drafts = []
+    page.on("request", lambda one: drafts.append(one.post_data_json["draft"]) if one.url.endswith("/curve") else None)
     for i in range(12):
         page.keyboard.press("ArrowRight" if i % 2 else "ArrowLeft")
         settled(page)
@@ -443,5 +480,8 @@ def test_a_key_asks_once(visit):
         "performance.getEntriesByType('resource').filter((one) => one.name.endsWith('/curve'))"
         ".map((one) => one.responseEnd - one.responseStart)"
     )
-    assert len(answers) == 12
+    # On a machine so busy that an answer takes longer than a drag may wait, a draft comes before it.
+    assert drafts.count(False) == 12
+    assert drafts.count(True) <= 12
+    assert len(answers) == len(drafts)
     assert statistics.median(answers) < 25.0

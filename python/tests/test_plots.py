@@ -12,9 +12,6 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.analysis.plots_response import motion_span
-from dondolo.figures.layout import lay_out
-from dondolo.walls.shape import shape
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.image import imread
@@ -23,6 +20,9 @@ from public import public_things
 from scipy import stats
 
 import dondolo as dd
+from dondolo.analysis.plots_response import motion_span
+from dondolo.figures.layout import lay_out
+from dondolo.walls.shape import shape
 
 LEVELS = [0.2, 0.4, 0.6, 0.8, 1.0]
 
@@ -116,7 +116,7 @@ def test_fragility_shows_fractions_curve_and_band(stripes):
 def test_bars_end_at_the_saturation():
     """Exact binomial intervals of the walls that can collapse, times their share of the population."""
     collapses, share = [0, 8, 20, 41, 44], 0.5
-    curve = replace(dd.fit_fragility(LEVELS, collapses, 44), saturation=share)
+    curve = replace(dd.fit_fragility(LEVELS, collapses, 44), upper_asymptote=share)
     ax = curve.plot(confidence=0.9)
     container = ax.containers[0]
     np.testing.assert_allclose(container.lines[0].get_ydata(), np.array(collapses) / 88, rtol=1e-12)
@@ -227,7 +227,7 @@ def test_what_a_wall_carries_is_drawn_with_its_value():
             dd.Load(12000.0, depth=0.5, height=4.0, inertia="both"),
             dd.Load(6000.0, depth=0.35, height=7.5, inertia="none"),
         ],
-        pushed_masses=[dd.PushedMass(500.0, depth=0.2, height=6.0)],
+        inertial_masses=[dd.InertialMass(500.0, depth=0.2, height=6.0)],
         thrusts=[dd.Thrust(800.0, height=7.5)],
         springs=[dd.Spring(20000.0, depth=0.6, height=4.0)],
         hinge_depth=0.015,

@@ -1,7 +1,12 @@
 """Populations: groups, mechanisms of one wall, tables, and size."""
 
+import csv
+import gc
 import math
 import pickle
+import subprocess
+import sys
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -26,7 +31,9 @@ ROWS = [
     dd.FreeStandingWall(1.8, 0.4, restitution_value=0.7, density=2000.0, name='b, "the" #2'),
     dd.OneSidedWall(1.0, 0.25, name="c"),
 ]
-PEOPLE = dd.Population(ROWS, [2.0, 2.0, 5.0, 0.0], groups=["low", "low", "high, free", ""], p_occ=[0.4, 0.6, 1.0, 0.0])
+PEOPLE = dd.Population(
+    ROWS, [2.0, 2.0, 5.0, 0.0], group_names=["low", "low", "high, free", ""], p_occ=[0.4, 0.6, 1.0, 0.0]
+)
 
 
 def same(one, other):
@@ -34,7 +41,7 @@ def same(one, other):
     return (
         one.walls == other.walls
         and [type(wall) for wall in one] == [type(wall) for wall in other]
-        and one.groups == other.groups
+        and one.group_names == other.group_names
         and np.array_equal(one.weights, other.weights)
         and np.array_equal(one.p_occ, other.p_occ)
     )
@@ -42,7 +49,7 @@ def same(one, other):
 
 def test_defaults():
     people = dd.Population([dd.OneSidedWall(3.0, 0.25), dd.OneSidedWall(3.5, 0.25)])
-    assert people.groups == ("", "")
+    assert people.group_names == ("", "")
     assert people.weights.tolist() == people.p_occ.tolist() == [1.0, 1.0]
     assert [wall.name for wall in people] == ["wall 1", "wall 2"]
     assert people.origin == ()
@@ -71,7 +78,7 @@ def test_rows_and_parts():
     part = PEOPLE[1:3]
     assert isinstance(part, dd.Population)
     assert part.walls == tuple(ROWS[1:3])
-    assert part.groups == ("low", "high, free")
+    assert part.group_names == ("low", "high, free")
     assert part.weights.tolist() == [2.0, 5.0]
     assert part.p_occ.tolist() == [0.6, 1.0]
     assert [wall.name for wall in PEOPLE[::-1]] == ["c", 'b, "the" #2', "a", "a"]
@@ -92,12 +99,12 @@ def test_rows_and_parts():
 
 def test_joined():
     other = dd.Population(
-        [dd.OneSidedWall(2.0, 0.3, name="d")], [3.0], groups=["low"], p_occ=[0.5], origin=["walls of the east"]
+        [dd.OneSidedWall(2.0, 0.3, name="d")], [3.0], group_names=["low"], p_occ=[0.5], origin=["walls of the east"]
     )
     both = PEOPLE + other
     assert len(both) == 5
     assert same(both[:4], PEOPLE)
-    assert both.groups[4] == "low"
+    assert both.group_names[4] == "low"
     assert (both.weights[4], both.p_occ[4]) == (3.0, 0.5)
     assert both.origin == ("walls of the east",)
     assert len(both.group("low")) == 3
@@ -129,15 +136,15 @@ def test_shown():
         ({"weights": [2.0, 2.0, 1.0, math.inf]}, "wall 'c': weight = inf: must not be negative"),
         ({"weights": [0.0] * 4}, "weight: must be positive for at least one wall"),
         ({"weights": [1.0, 2.0, 1.0, 1.0]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
-        ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
+        ({"group_names": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
         (
-            {"groups": ["x", "x", "a\nb", ""]},
+            {"group_names": ["x", "x", "a\nb", ""]},
             "wall 'b, \"the\" #2': group = 'a\\nb': must be one line without control characters and marks of direction",
         ),
-        ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a string"),
-        ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
-        ({"groups": 5}, "groups = 5: must be a name for each wall"),
-        ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
+        ({"group_names": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a string"),
+        ({"group_names": ["x"]}, "4 walls, 1 group_names: must be as many"),
+        ({"group_names": 5}, "group_names = 5: must be a name for each wall"),
+        ({"group_names": "abcd"}, "group_names = 'abcd': must be a name for each wall"),
         (
             {"origin": ["two\nlines"]},
             "origin = 'two\\nlines': must be one line without control characters and marks of direction",
@@ -186,7 +193,7 @@ def test_mechanisms_of_one_wall_run(few):
 
 def test_table(tmp_path):
     named = dd.Population(
-        PEOPLE.walls, PEOPLE.weights, groups=PEOPLE.groups, p_occ=PEOPLE.p_occ, origin=["surveyed in spring"]
+        PEOPLE.walls, PEOPLE.weights, group_names=PEOPLE.group_names, p_occ=PEOPLE.p_occ, origin=["surveyed in spring"]
     )
     named.to_csv(tmp_path / "walls.csv")
     lines = (tmp_path / "walls.csv").read_text().splitlines()
@@ -226,7 +233,7 @@ def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity
         eccentricity=eccentricity,
         name=name,
     )
-    people = dd.Population([wall], [weight], groups=[group], p_occ=[p_occ])
+    people = dd.Population([wall], [weight], group_names=[group], p_occ=[p_occ])
     path = tmp_path_factory.mktemp("tables") / "walls.csv"
     people.to_csv(path)
     back = dd.Population.from_csv(path)
@@ -262,12 +269,12 @@ def test_table_that_is_no_utf8(encoding, tmp_path):
 
 
 def test_blanks_of_names_are_kept(tmp_path):
-    people = dd.Population(ROWS[3:], groups=[" north"])
-    people += dd.Population([dd.OneSidedWall(1.0, 0.25, name="  d")], groups=["south "])
+    people = dd.Population(ROWS[3:], group_names=[" north"])
+    people += dd.Population([dd.OneSidedWall(1.0, 0.25, name="  d")], group_names=["south "])
     people.to_csv(tmp_path / "walls.csv")
     back = dd.Population.from_csv(tmp_path / "walls.csv")
     assert [wall.name for wall in back] == ["c", "  d"]
-    assert back.groups == (" north", "south ")
+    assert back.group_names == (" north", "south ")
 
 
 def test_the_executable_reads_it(run, root, tmp_path):
@@ -288,7 +295,7 @@ def test_many_walls_take_linear_time(tmp_path):
 
     def work(count):
         people = dd.Population.from_csv(tmp_path / f"{count}.csv")
-        assert (people[-1].name, people.groups[-1]) == (f"wall {count - 1}", f"g{(count - 1) % 7}")
+        assert (people[-1].name, people.group_names[-1]) == (f"wall {count - 1}", f"g{(count - 1) % 7}")
         again = people + dd.Population([dd.OneSidedWall(3.0, 0.25, name="last")])
         again.to_csv(tmp_path / "again.csv")
         assert len(again) == count + 1
@@ -332,14 +339,14 @@ def test_a_data_frame_is_read_as_its_file_is(tmp_path):
         dd.TwoBlockWall(3.0, 0.25, name="c", hinge=0.6),
         dd.OneSidedWall(sections=storeys, name="d"),
     ]
-    population = dd.Population(walls, [1.5, 2.0, 1.0 / 3.0], groups=["x", "", "y"], p_occ=[0.2, 1.0, 0.5])
+    population = dd.Population(walls, [1.5, 2.0, 1.0 / 3.0], group_names=["x", "", "y"], p_occ=[0.2, 1.0, 0.5])
     population.to_csv(tmp_path / "walls.csv")
     frame = pd.read_csv(tmp_path / "walls.csv", comment="#")
     again = dd.Population.from_frame(frame)
     assert again.walls == population.walls
     assert (again.weights == population.weights).all()
     assert (again.p_occ == population.p_occ).all()
-    assert (again.groups, again.occurrence) == (population.groups, population.occurrence)
+    assert (again.group_names, again.occurrence) == (population.group_names, population.occurrence)
     with pytest.raises(dd.errors.InputError, match=r"Population\.from_frame makes them of a data frame"):
         dd.Population(frame)
     with pytest.raises(dd.errors.InputError, match="must be a pandas DataFrame"):
@@ -354,3 +361,171 @@ def test_a_data_frame_is_read_as_its_file_is(tmp_path):
         dd.errors.InputError, match=r"frame\.iloc\[0\]: thickness = \[1\]: must be a number or a string"
     ):
         dd.Population.from_frame(pd.DataFrame({"thickness": [[1]]}))
+
+
+SURVEY = (
+    "name,mechanism,height,thickness,group,x_Indirizzo,p_occ,Note 2,x_date\n"
+    '"1.1",one_sided,2.4,0.3,a,"via Roma 3, interno ""B""",0.5,=1+1,2026-03-01\n'
+    '"1.1",two_block,2.4,0.3,a,,1,crepa # 2,\n'
+    "b,one_sided,3.0,0.3,,12,1,,-\n"
+)
+NOTES = {
+    "x_Indirizzo": ('via Roma 3, interno "B"', "", "12"),
+    "Note 2": ("=1+1", "crepa # 2", ""),
+    "x_date": ("2026-03-01", "", "-"),
+}
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_notes_are_kept_by_every_route(executable, root, tmp_path):
+    """Executable, Population, frames, results read, written again, saved, and parts of a population."""
+    (tmp_path / "walls.csv").write_text(SURVEY)
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' / &population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' / &stripes levels = 0.4, 0.6, 0.8 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True, capture_output=True)
+    people = dd.Population.from_csv(tmp_path / "walls.csv")
+    assert people.notes == NOTES
+    people.to_csv(tmp_path / "again.csv")
+    assert dd.Population.from_csv(tmp_path / "again.csv").notes == NOTES
+    read, ran = dd.read_results(tmp_path / "out"), dd.run_case(tmp_path / "case.nml", progress=False)
+    assert read.population.notes == ran.population.notes == NOTES
+    assert dd.read_case(tmp_path / "case.nml").population.notes == NOTES
+    read.write_results(tmp_path / "copy")
+    ran.typology.write_results(tmp_path / "python")
+    tables = [(tmp_path / f"{one}_walls.csv").read_text() for one in ("out", "copy", "python")]
+    bodies = ["".join(line for line in table.splitlines(True) if not line.startswith("# ")) for table in tables]
+    assert bodies[0] == bodies[1] == bodies[2]
+    assert bodies[0].splitlines()[0].endswith(",p_occ,x_Indirizzo,Note 2,x_date")
+    # Nothing depends on them
+    bare = "\n".join(",".join([*row[:5], row[6]]) for row in csv.reader(SURVEY.splitlines()))
+    (tmp_path / "bare.csv").write_text(bare + "\n")
+    how = dd.example_records(), [0.4, 0.6, 0.8]
+    other = dd.typology(dd.Population.from_csv(tmp_path / "bare.csv"), *how, progress=False)
+    mine = dd.typology(people, *how, progress=False)
+    assert np.array_equal(other.exceedances, mine.exceedances)
+    mine.save(tmp_path / "saved.npz")
+    assert dd.load(tmp_path / "saved.npz").population.notes == NOTES
+    assert pickle.loads(pickle.dumps(people)).notes == NOTES
+    assert people[[2]].notes == {name: texts[2:] for name, texts in NOTES.items()}
+    more = people + dd.Population([dd.OneSidedWall(2.0, 0.3, name="c")], notes={"note_2": ["new"]})
+    assert more.notes == {name: (*texts, "") for name, texts in NOTES.items()} | {"note_2": ("", "", "", "new")}
+    page = (tmp_path / "page.html", dd.report(mine, tmp_path / "page.html"))[0].read_text()
+    assert "via Roma 3, interno" in page
+    assert "x_Indirizzo" in page
+    openpyxl = pytest.importorskip("openpyxl")
+    for lang in ("en", "it"):
+        dd.write_workbook(tmp_path / "out", tmp_path / f"{lang}.xlsx", lang=lang)
+        head, *rows = openpyxl.load_workbook(tmp_path / f"{lang}.xlsx").worksheets[1].iter_rows()
+        at = [cell.value for cell in head].index("x_Indirizzo")
+        cells = [[(cell.value, cell.data_type) for cell in row[at : at + 3] if cell.value is not None] for row in rows]
+        expected = [[(one, "s") for one in own if one] for own in zip(*NOTES.values(), strict=True)]
+        assert cells == expected
+
+
+def test_notes_of_frames():
+    pandas = pytest.importorskip("pandas")
+    days = pandas.to_datetime(["2026-03-01", None])
+    frame = pandas.DataFrame(
+        {"mechanism": "one_sided", "height": [2.4, 3.0], "thickness": 0.3, "x_day": days, "note": ["a", None], "x_n": 1}
+    )
+    people = dd.Population.from_frame(frame)
+    assert people.notes == {"x_day": ("2026-03-01 00:00:00", ""), "note": ("a", ""), "x_n": ("1", "1")}
+    assert people.to_frame()["note"].tolist() == ["a", ""]
+
+
+@pytest.mark.parametrize(
+    ("notes", "message"),
+    [
+        ({"address": ["a", "b"]}, "notes: 'address': must begin with x_ or note"),
+        ({"x_a": ["a"]}, "2 walls, 1 x_a: must be as many"),
+        ({"x_a": ["a", 3]}, "x_a = 3: must be a string"),
+        ({"x_a": ["a", "b\nc"]}, "wall 'w2': x_a = .*: must be one line"),
+        ({"x_a": ["a", "b"], "X_A": ["a", "b"]}, "'x_a' is there twice"),
+        (["x_a"], "notes = .*: must be a mapping"),
+    ],
+)
+def test_wrong_notes(notes, message):
+    walls = [dd.OneSidedWall(2.0, 0.3, name=f"w{i}") for i in (1, 2)]
+    with pytest.raises(dd.errors.InputError, match=message):
+        dd.Population(walls, notes=notes)
+
+
+def test_other_columns_are_refused_with_what_to_write(tmp_path):
+    for column in ("address", "date", "surveyor", "indirizzo"):
+        (tmp_path / "walls.csv").write_text(f"name,mechanism,height,thickness,{column}\na,one_sided,2.4,0.3,x\n")
+        with pytest.raises(dd.errors.InputError, match=f"column '{column}': no such column.* begins with x_ or note$"):
+            dd.Population.from_csv(tmp_path / "walls.csv")
+    (tmp_path / "walls.csv").write_text('name,mechanism,height,thickness,note\na,one_sided,2.4,0.3,"two\nlines"\n')
+    with pytest.raises(dd.errors.InputError, match=r"line 2: note = 'two\\nlines': must be one line"):
+        dd.Population.from_csv(tmp_path / "walls.csv")
+
+
+def test_walls_are_columns(tmp_path):
+    """A wall of many takes at most 400 bytes beyond its texts, and is the same wall whenever it is asked for."""
+    n = 4000
+    rows = "".join(
+        f"row houses {i // 2},{kind},{2.0 + 0.0005 * i:g},0.38,{rest},12,row houses,0.5\n"
+        for i in range(n)
+        for kind, rest in [(("one_sided", ",,"), ("two_block", "0.56,1300,0"))[i % 2]]
+    )
+    head = "name,mechanism,height,thickness,hinge,overburden,overburden_inertia,weight,group,p_occ\n"
+    (tmp_path / "walls.csv").write_text(head + rows)
+    dd.Population.from_csv(tmp_path / "walls.csv")
+    gc.collect()
+    tracemalloc.start()
+    try:
+        before = tracemalloc.get_traced_memory()[0]
+        people = dd.Population.from_csv(tmp_path / "walls.csv")
+        people.wholes, people.first_rows, people.alternative_numbers  # noqa: B018
+        gc.collect()
+        taken = tracemalloc.get_traced_memory()[0] - before
+    finally:
+        tracemalloc.stop()
+    texts = sum(sys.getsizeof(wall.name) for wall in people)
+    assert taken - texts / 2 < 400 * n
+    # As objects they are alike, in the memory of Fortran too
+    again = dd.Population(tuple(people.walls), people.weights, group_names=people.group_names, p_occ=people.p_occ)
+    assert again.walls == people.walls == tuple(people)
+    assert repr(again) == repr(people)
+    for name, column in people._table().items():
+        assert list(map(repr, column.values)) == list(map(repr, again._table()[name].values)), name
+    assert pickle.loads(pickle.dumps(people)).walls == people.walls
+    wall = people[17]
+    assert wall is people[17]
+    assert people[10:20][7] == wall
+    assert (people.walls[-1], people.walls[5:3:-1]) == (people[n - 1], (people[5], people[4]))
+    with pytest.raises(IndexError):
+        people[n]
+
+
+def test_walls_with_parts_are_columns():
+    """Lists, words, buildings and tables come back as they were given."""
+    house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
+    storeys = [dd.Section(4.0, 0.6), dd.Section(3.5, 0.45)]
+    loads = [dd.Load(9e3, depth=0.1, height=3.0, inertia="both"), dd.Load(4e3, depth=0.2, height=7.0, inertia="both")]
+    q = np.linspace(0.0, 0.3, 9)
+    walls = [
+        dd.OneSidedWall(3.0, 0.25, name="plain"),
+        dd.OneSidedWall(sections=storeys, loads=loads, name="storeys", gravity=9.5),
+        dd.OneSidedWall(3.0, 0.3, ties=[dd.Tie(height=2.5, strength=4000.0, length=6.0, area=1e-4)], name="tied"),
+        dd.FreeStandingWall(1.5, 0.25, building=house, name="roof"),
+        dd.TwoBlockWall(3.0, 0.25, overburden=8e3, overburden_inertia=0.0, bearing="inner", bearing_distance=0.06),
+        dd.TabulatedWall(2.0, rotation=q, inertia=900.0, lever=800.0 + q, moment=300.0 - 1000.0 * q, sides=1,
+                         restitution_value=0.8, name="table"),
+    ]  # fmt: skip
+    people = dd.Population(walls)
+    alone = [dd.Population([wall]).walls[0] for wall in walls]
+    parts = pickle.loads(pickle.dumps(people)).walls
+    for wall, own, part in zip(walls, alone, parts, strict=True):
+        assert own is wall
+        named = wall if wall.name != "wall" else wall._renamed("wall 5")
+        assert part == named
+        assert repr(part) == repr(named)
+        for mine, its in zip(part._flat, named._flat, strict=True):
+            assert np.array_equal(mine, its)
+    table = dd.Population([wall._renamed(f"w{i}") for i, wall in enumerate(walls)])._table()
+    for name, column in dd.Population(pickle.loads(pickle.dumps(people)).walls)._table().items():
+        if name != "wall":
+            assert list(map(repr, column.values)) == list(map(repr, table[name].values)), name

@@ -11,12 +11,12 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.figures import style
-from dondolo.figures.options import PARTS, Options
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.text import Text
 
 import dondolo as dd
+from dondolo.figures import style
+from dondolo.figures.options import PARTS, Options
 
 LEVELS = np.linspace(0.1, 1.2, 12)
 # Panels of those that have several; letters and legends of these need more height without a layout engine
@@ -87,7 +87,7 @@ def drawings(wall, records):
     curve, motion = stripes.fit(), dd.simulate(wall, records[6], scale=2.2)
     walls = [dd.OneSidedWall(h, t, name=f"wall {h} {t}") for h in (1.2, 1.8, 2.4) for t in (0.2, 0.3)]
     walls += [strip, dd.FreeStandingWall(2.0, 0.3)]
-    people = dd.Population(walls, groups=["low", "low", "high", "high", "low", "high", "towers", "towers"])
+    people = dd.Population(walls, group_names=["low", "low", "high", "high", "low", "high", "towers", "towers"])
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0]
     typology = dd.typology(people, some, levels=levels, edp_thresholds=[0.1, 0.4], progress=False)
     both = dd.Population([wall, dd.TwoBlockWall(1.5, 0.25, hinge=0.6, name="parapet")])
@@ -137,7 +137,7 @@ def drawings(wall, records):
         typology.plot_damage_states,
         union.plot_union,
         dd.compare_designs(choice, some, [0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0], site=site).plot,
-        dd.uncertain_wall(strip, some, wide, sources=sources, n_variants=40, progress=False).plot,
+        dd.propagate_uncertainty(strip, some, wide, sources=sources, n_variants=40, progress=False).plot,
         dd.weakest_hinge(strip, some, wide).plot,
     ]
     return dict(zip(NAMES, methods, strict=True))

@@ -356,7 +356,32 @@ def test_metadata_of_components(combine):
         combine(known(station="AQV"), known(station="AQK"))
     with pytest.raises(dd.errors.InputError, match="date = '2009-04-06' and '2009-04-07': must be the same"):
         combine(known(date="2009-04-06"), known(date="2009-04-07"))
-    for vertical in ("U", "UP", "Up", "UD", "U-D", "UD1", "Z", "V", "VERT", "vertical", "HNZ", "HGZ", "ICC-UP", "+UP"):
+    with pytest.raises(dd.errors.InputError, match="event = 'Hill' and 'Dale': must be the same"):
+        combine(known(event="Hill"), known(event="Dale"))
+    for vertical in (
+        "U",
+        "UP",
+        "Up",
+        "UD",
+        "U-D",
+        "UD1",
+        "Z",
+        "V",
+        "VERT",
+        "vertical",
+        "HNZ",
+        "HGZ",
+        "ICC-UP",
+        "+UP",
+        "D",
+        "BHZ00",
+    ):
         for pair in ((vertical, "HNE"), ("HNE", vertical)):
             with pytest.raises(dd.errors.InputError, match="is vertical, must be horizontal"):
                 combine(*(known(component=component) for component in pair))
+
+
+def test_a_vertical_component_is_of_the_same_day():
+    assert known(date="2009-04-06").with_vertical(known(date="2009-04-06", component="UP")).vertical is not None
+    with pytest.raises(dd.errors.InputError, match="date = '2009-04-06' and '2009-05-06': must be the same"):
+        known(date="2009-04-06").with_vertical(known(date="2009-05-06"))

@@ -19,11 +19,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo._fortran import _core
-from dondolo._fortran.library import properties
 from public import public_things
 
 import dondolo as dd
+from dondolo._fortran import _core
+from dondolo._fortran.library import properties
 
 
 def test_versions(root):
@@ -39,18 +39,18 @@ def test_fortran_sources(root):
     text = (root / "src/meson.build").read_text()
     *layers, app = (
         re.findall(r"'([^']+)'", re.search(rf"^{name} = files\((.*?)\)", text, re.S | re.M).group(1))
-        for name in ("core_sources", "lane_sources", "sources", "app_sources")
+        for name in ("common_sources", "lane_sources", "sources", "app_sources")
     )
     there = [file for suffix in ("c", "f90", "F90") for file in root.glob(f"src/**/*.{suffix}")]
     # What is compiled a second time in quadruple precision, and the one source that only is
-    folder = "dondolo/motion/quadruple"
+    folder = "core/motion/quadruple"
     again = re.findall(r"^  '([^']+)',$", (root / f"src/{folder}/meson.build").read_text(), re.M)
-    own = [f"dondolo/{name}" for name in again if f"dondolo/{name}".startswith(folder)]
+    own = [f"core/{name}" for name in again if f"core/{name}".startswith(folder)]
     assert len(own) == 1
     # What meson puts the commit into
     own += re.findall(r"input: '([^']+\.c)'", text)
     assert len(own) == 2
-    assert {f"dondolo/{name}" for name in again} - set(own) <= set(layers[0])
+    assert {f"core/{name}" for name in again} - set(own) <= set(layers[0])
     listed = [name for layer in layers for name in layer] + own
     assert sorted(listed) == sorted(str(file.relative_to(root / "src")) for file in there)
     other_programs = {
@@ -61,9 +61,14 @@ def test_fortran_sources(root):
     assert set(app) == {f"../app/{file.name}" for file in root.glob("app/*.f90")} - other_programs
 
 
-def rooms_of(folder):
-    """The rooms in a folder: {file: room} and {module: room}."""
-    files = {path: path.relative_to(folder).parts[0] for path in folder.glob("**/*.[fF]90")}
+#: Rooms of the two halves of the library, in their order
+CORE = ["base", "record", "building", "wall", "motion", "fragility", "check"]
+STUDY = ["files", "records", "population", "case", "interface"]
+
+
+def rooms_of(*folders):
+    """The rooms in folders: {file: room} and {module: room}."""
+    files = {path: path.relative_to(folder).parts[0] for folder in folders for path in folder.glob("**/*.[fF]90")}
     homes = {
         name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)
     }
@@ -71,40 +76,37 @@ def rooms_of(folder):
 
 
 @pytest.mark.parametrize(
-    ("folder", "rooms"),
+    ("folders", "rooms"),
     [
-        (
-            ".",
-            ["base", "record", "building", "wall", "motion", "fragility", "check", "population", "case", "interface"],
-        ),
-        ("base", ["numerics", "text", "properties", "system"]),
-        ("case", ["namelist", "groups", "warnings", "input", "results", "tasks"]),
+        (["core", "study"], CORE + STUDY),
+        (["core/base"], ["numerics", "text", "properties", "system"]),
+        (["study/case"], ["namelist", "groups", "warnings", "input", "results", "tasks"]),
     ],
 )
-def test_rooms(root, folder, rooms):
+def test_rooms(root, folders, rooms):
     """Each room of the library knows only those before it."""
-    files, homes = rooms_of(root / "src/dondolo" / folder)
+    files, homes = rooms_of(*(root / "src" / folder for folder in folders))
     assert set(files.values()) == set(rooms)
     for path, room in files.items():
         for name in re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M):
             # The build variants of a module are at home where it is.
             known = homes.get(re.sub("_(avx2|avx512)$", "", name))
-            assert known or folder != ".", f"{path.name} uses {name}"
+            assert known or len(folders) == 1, f"{path.name} uses {name}"
             assert known is None or rooms.index(known) <= rooms.index(room), f"{path.name} uses {name}"
 
 
 def test_modules_are_named_after_their_rooms(root):
     """As room and file, said once: base/text/error.f90 is dondolo_base_error."""
-    folder = root / "src/dondolo"
-    for path in folder.rglob("*.[fF]90"):
-        room = path.relative_to(folder).parts[0]
+    folder = root / "src"
+    for path in folder.glob("*/**/*.[fF]90"):
+        room = path.relative_to(folder).parts[1]
         name = path.stem if re.match(rf"{room}(_|$)", path.stem) else f"{room}_{path.stem}"
         assert re.findall(r"^module (\w+)", path.read_text(), re.M) == [f"dondolo_{name}"]
 
 
 def test_rooms_of_motion(root):
     """The engines share a common room and do not know each other."""
-    folder = root / "src/dondolo/motion"
+    folder = root / "src/core/motion"
     home = {}
     for path in folder.glob("**/*.[fF]90"):
         room = path.relative_to(folder).parts[0] if path.parent != folder else ""
@@ -122,13 +124,53 @@ def test_rooms_of_motion(root):
                 assert home[name][0] in known[room], f"{path.name} uses {name}"
 
 
+def files_needed(folder, module):
+    """The sources that a module is compiled from, its own and those of all it uses."""
+    sources = {path.stem: path for path in folder.rglob("*.[fF]90")}
+    homes = {re.search(r"^module (\w+)", path.read_text(), re.M).group(1): path for path in sources.values()}
+    needed, todo = set(), [homes[module]]
+    while todo:
+        path = todo.pop()
+        if path not in needed:
+            needed.add(path)
+            names = re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M)
+            todo += [homes[name] for name in (re.sub("_(avx2|avx512)$", "", name) for name in names) if name in homes]
+    return needed
+
+
+@pytest.mark.parametrize(
+    ("module", "most"), [("dondolo_motion_rk45", 45), ("dondolo_fragility_stripes", 87), ("dondolo_core", 131)]
+)
+def test_few_files_have_to_be_read(root, module, most):
+    """To understand the engine, or a study, one reads no more than these, and none of them opens a file."""
+    needed = files_needed(root / "src", module)
+    assert len(needed) <= most
+    assert {path.relative_to(root / "src").parts[0] for path in needed} <= {"core", "dondolo_core.f90"}
+
+
+def test_the_core_computes(root):
+    """It opens, reads and prints nothing, and knows no namelist, no format of files and nothing of the other half."""
+    sources = [*(root / "src/core").rglob("*.[fF]90")]
+    assert len(sources) > 130
+    talks = re.compile(
+        r"^\s*(if \(.*\) )?((open|inquire|rewind|close) ?\(|namelist ?/|(print|stop)\b|read ?\(\w*unit|write ?\(\*)",
+        re.M,
+    )
+    homes = rooms_of(root / "src/core")[1]
+    for path in sources:
+        text = path.read_text()
+        assert talks.search(text) is None, f"{path.name}: {talks.search(text)[0].strip()}"
+        used = {re.sub("_(avx2|avx512)$", "", name) for name in re.findall(r"^\s+use (dondolo_\w+)", text, re.M)}
+        assert used <= set(homes), f"{path.name} uses {used - set(homes)}"
+
+
 def test_quadruple_sources(root):
     """Every module that depends on the precision is compiled a second time if one that is uses it."""
-    text = (root / "src/dondolo/motion/quadruple/meson.build").read_text()
+    text = (root / "src/core/motion/quadruple/meson.build").read_text()
     listed = re.search(r"quadruple_sources = \[(.*?)\]", text, re.S).group(1)
     stems = {Path(name).stem for name in re.findall(r"'([^']+)'", listed)}
     twice, uses = set(), {}
-    for path in root.glob("src/dondolo/**/*.[fF]90"):
+    for path in root.glob("src/**/*.[fF]90"):
         text = path.read_text()
         name = re.search(r"^module (\w+)", text, re.M).group(1)
         uses[name] = set(re.findall(r"^\s+use (dondolo_\w+)", text, re.M))
@@ -235,8 +277,8 @@ def test_texts_have_the_line_ends_of_their_checksums(root):
 def test_rooms_are_documented(root):
     """The map of the sources names every room."""
     page = (root / "docs/architecture.md").read_text()
-    folders = [path for path in root.glob("src/dondolo/*") if path.is_dir()]
-    folders += [path for path in root.glob("src/dondolo/*/*") if path.is_dir()]
+    folders = [path for path in root.glob("src/*/*") if path.is_dir()]
+    folders += [path for path in root.glob("src/*/*/*") if path.is_dir()]
     folders += [path for path in root.glob("python/dondolo/*") if path.is_dir() and not path.name.startswith("__")]
     assert len(folders) > 25
     assert [path.name for path in folders if f"`{path.name}`" not in page] == []
@@ -317,11 +359,11 @@ def test_quantities_of_sheets(root):
     """A name that no quantity of a check has would be found nowhere, in silence."""
     example = "x = sheet%value('nonlinear', 'SLV', 'zeta')\ncall sheet%add(method, &\n & state, 'alfa_0', x)\n"
     assert quantities_of(example) == {"zeta", "alfa_0"}
-    known = set(re.findall(r"quantity_type\('(\w+)'", (root / "src/dondolo/check/check_sheet.F90").read_text()))
+    known = set(re.findall(r"quantity_type\('(\w+)'", (root / "src/core/check/check_sheet.F90").read_text()))
     files = [
-        *root.glob("src/dondolo/check/*.[fF]90"),
+        *root.glob("src/core/check/*.[fF]90"),
         *root.glob("app/*.f90"),
-        *root.glob("src/dondolo/case/*/check*.f90"),
+        *root.glob("src/study/case/*/check*.f90"),
     ]
     found = {name: file.name for file in files for name in quantities_of(file.read_text())}
     assert len(found) > 60
@@ -377,7 +419,7 @@ def test_procedures_that_compute_release_the_lock(root):
         "take_parcel", "take_series", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum",
         "ground_velocity", "significant_times", "certify", "simulate", "run_block", "run_case", "run_rows",
         "run_scaled", "fit_curves", "fit_logit", "probability", "row_probability", "wall_probability", "wall_slopes",
-        "fit_population",
+        "fit_population", "read_records",
         "floor_motion", "felt_motion", "sensitivity", "publish_set", "write_table",
     }  # fmt: skip
 
@@ -481,9 +523,11 @@ def test_options_are_keywords():
 
 # What may be left out and still goes by its place: the one thing that a call is about
 BY_PLACE = {
+    "ag",
     "ax",
     "edp_threshold",
     "edp_thresholds",
+    "f0",
     "height",
     "histories",
     "ims",
@@ -491,10 +535,12 @@ BY_PLACE = {
     "levels",
     "measure",
     "name",
+    "period",
     "probabilities",
     "q",
     "scale",
     "table",
+    "tc_star",
     "thickness",
     "weights",
 }
@@ -513,10 +559,11 @@ def test_what_may_be_left_out_goes_by_name():
 def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
-        "Bed", "Building", "Choice", "DiscreteFragility", "FreeStandingWall", "FunctionFragility", "HazardCurve",
-        "Load", "Lognormal", "Normal", "OneSidedWall", "Population", "PushedMass", "Record", "RecordSet", "Section",
-        "Site", "Spring", "TabulatedWall", "TargetSpectrum", "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform",
-        "Wall",
+        "Body", "Building", "Chain", "Choice", "DiscreteFragility", "DistributedSpring", "FreeStandingWall",
+        "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "InertialMass", "Load", "Lognormal",
+        "Normal", "OneSidedWall", "Part", "Pin", "PointLoad", "PointMass", "PointThrust", "Population",
+        "Record", "RecordSet", "Section", "Sector", "Site", "Spring", "TabulatedWall", "TargetSpectrum",
+        "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name, thing in public_things().items() if dataclasses.is_dataclass(thing)}
     assert made_by_users < set(kinds)
@@ -619,7 +666,7 @@ def test_linters(command, root):
 
 def test_limits_are_documented(root):
     """docs/files.md lists every limit with its value."""
-    source = (root / "src/dondolo/base/text/limits.f90").read_text()
+    source = (root / "src/core/base/text/limits.f90").read_text()
     limits = {}
     for line in re.findall(r"parameter, public :: (.*)", source):
         for name, value in re.findall(r"(\w+) = ([^,]+)", line):

@@ -11,11 +11,11 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo._fortran import _core
 from matplotlib.collections import PolyCollection
 from refusals import refused
 
 import dondolo as dd
+from dondolo._fortran import _core
 
 # Of 0.3 g
 PEAK = 0.3 * 9.81

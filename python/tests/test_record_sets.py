@@ -1,6 +1,7 @@
 """Sets of records, records of their own at each level, and selection to a target spectrum."""
 
 import pickle
+import re
 import subprocess
 import sys
 import warnings
@@ -8,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo.records.level_rows import scaled_records
-from dondolo.records.target import correlation
 
 import dondolo as dd
+from dondolo.records.level_rows import scaled_records
+from dondolo.records.target import correlation
 
 PERIODS = [0.1, 0.3, 0.6, 1.0, 2.0, 3.0]
 
@@ -58,6 +59,25 @@ def test_each_level_runs_its_records_alone(records, sets, parapet):
     assert (curve.theta, curve.beta) == (again.theta, again.beta)
     assert np.isfinite(curve.bootstrap(n_resamples=50).theta).any()
     some.plot()
+
+
+def test_the_report_of_records_of_their_own(sets, parapet, tmp_path):
+    """Medians and errors are of the histories that run: no dash, and no NaN."""
+    from dondolo.reporting import wall
+
+    some = dd.multiple_stripe(parapet, sets, polarity="both", estimate_error=True, progress=False)
+    medians = [float(np.median(some.edp[i, some.ran[i]])) for i in range(3)]
+    page = tmp_path / "stripes.html"
+    dd.report(some, page)
+    text = re.sub(r"<[^>]+>", " ", page.read_text(encoding="utf-8"))
+    assert "nan" not in text.lower().split()
+    column = wall.numbers(some, [some.fit()])["levels"]
+    heads = [one.head for one in column.columns]
+    cells = [row[heads.index("median EDP")] for row in column.all_rows]
+    assert [one.text for one in cells] == [f"{value:.3g}" for value in medians]
+    assert some.edp_error is not None
+    largest = f"{float(some.edp_error[some.ran].max()):.3g}"
+    assert largest.partition("e")[0] in text.partition("largest estimated error of an EDP")[2][:60]
 
 
 def test_stripes_are_joined_and_cut(records, parapet):
@@ -310,7 +330,7 @@ def test_designs_and_variants_run_the_records_of_a_set(sets, parapet):
     np.testing.assert_array_equal(designs.stripes[0].edp, alone.edp)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.errors.DondoloWarning)
-        unsure = dd.uncertain_wall(
+        unsure = dd.propagate_uncertainty(
             parapet,
             joined,
             [0.6, 0.8, 1.0],

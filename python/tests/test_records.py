@@ -1,6 +1,7 @@
 """Records: what they keep, and how files are read."""
 
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -123,20 +124,20 @@ def test_channels(tmp_path):
         dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=2)
 
 
-COLUMNS = "#Station: TLM\ntime,N-S,E-W\n0,0.1,0.2\n0.01,-0.3,0.4\n0.02,0.2,-0.1\n"
+COLUMNS = "#Station: TLM\ntime,acc N-S,acc E-W\n0,0.1,0.2\n0.01,-0.3,0.4\n0.02,0.2,-0.1\n"
 
 
 def test_several_channels(tmp_path):
     file = tmp_path / "two.csv"
     file.write_text(COLUMNS)
     first, second = dd.read_records(file, units="g")
-    assert first.name == "two.N-S"
-    assert first.metadata["channel"] == "N-S"
+    assert first.name == "two.acc_N-S"
+    assert first.metadata["channel"] == "acc N-S"
     assert second.peak_acceleration == 0.4 * 9.80665
-    for channel in (2, "2", "E-W", "e-w"):
+    for channel in (2, "2", "acc E-W", "ACC E-W"):
         record = dd.read_record(file, units="g", channel=channel)
         assert np.array_equal(record.acceleration, second.acceleration)
-    with pytest.raises(dd.errors.InputError, match=r"has 2 channels: channel must be one of 'N-S', 'E-W'"):
+    with pytest.raises(dd.errors.InputError, match=r"has 2 channels: channel must be one of 'acc N-S', 'acc E-W'"):
         dd.read_record(file, units="g")
     with pytest.raises(dd.errors.InputError, match="format = 'excel': must be one of 'peer'"):
         dd.read_records(file, units="g", format="excel")
@@ -167,7 +168,7 @@ def test_metadata(tmp_path):
 
 
 def test_metadata_of_a_case(tmp_path):
-    (tmp_path / "two.csv").write_text(COLUMNS.replace("N-S", "N-S (g)"))
+    (tmp_path / "two.csv").write_text(COLUMNS.replace("acc N-S", "acc N-S (g)"))
     (tmp_path / "one.txt").write_text("0\n1\n2\n")
     (tmp_path / "records.csv").write_text("file,channel,dt_s,units\none.txt,,0.01,g\ntwo.csv,1,,\n")
     (tmp_path / "case.nml").write_text(
@@ -201,3 +202,62 @@ def test_spectra_are_no_records(title, tmp_path):
     (tmp_path / "spectrum.csv").write_text(f"{title}\n0.00;0.2\n0.01;0.3\n0.02;0.4\n")
     with pytest.raises(dd.errors.InputError, match=r"is not an acceleration|must be in s"):
         dd.read_record(tmp_path / "spectrum.csv")
+
+
+class Quantity:
+    """A number with a unit, as packages of units make it."""
+
+    def __init__(self, value: float, units: str) -> None:
+        self.value, self.units = value, units
+
+    def __float__(self) -> float:
+        return self.value
+
+
+class Column(np.ndarray):
+    """Numbers with what pandas and xarray say of them."""
+
+    attrs: dict[str, str]
+    name: str | None
+
+
+def column(values, name=None, **attrs):
+    made = np.asarray(values).view(Column)
+    made.attrs, made.name = attrs, name
+    return made
+
+
+@pytest.mark.parametrize("unit", ["cm/s2", "gal", "g"])
+def test_units_of_numbers_and_columns_are_not_stripped(unit):
+    samples = [0.0, 10.0, -20.0]
+    quantities = np.array([Quantity(one, unit) for one in samples], dtype=object)
+    for given in (quantities, list(quantities), column(samples, units=unit), column(samples, f"acc NS ({unit})")):
+        for wrong in ({"acceleration": given}, {"acceleration": samples, "vertical": given}):
+            with pytest.raises(dd.errors.InputError, match=f"has the unit '{unit}': must be plain numbers"):
+                dd.Record(dt=0.01, **wrong)
+
+
+@pytest.mark.parametrize("unit", ["m/s2", "m/s^2", "m/s**2", "m/s/s", "m s-2", "m/sec2", "m/s²"])
+def test_columns_in_the_unit_of_records(unit):
+    samples = [0.0, 10.0, -20.0]
+    for given in (column(samples, units=unit), column(samples, f"acc [{unit}]"), column(samples, "acc (NS)")):
+        assert dd.Record(given, 0.01).peak_acceleration == 20.0
+    assert dd.Record(np.array(samples, dtype=object), 0.01).peak_acceleration == 20.0
+
+
+def test_control_characters_reach_no_document(tmp_path):
+    """Headers lose them when they are read, arguments are refused by the name of the key; tabs and accents stay."""
+    path = tmp_path / "a.txt"
+    samples = "".join(f"{0.1 * (i % 7) - 0.3:.3f}\n" for i in range(200))
+    path.write_text("# station: Pi\x1bove\tdi \x7fCadore\n# event: Fri\u202euli \u00e8\n" + samples, encoding="utf-8")
+    (record,) = dd.read_records(path, dt=0.01, units="m/s2")
+    assert record.metadata["station"] == "Pi ove\tdi  Cadore"
+    assert record.metadata["event"].split() == ["Fri", "uli", "\u00e8"]
+    for wrong, shown in (("a\x0bb", r"\x0b"), ("\ud800", r"\ud800"), ("a\uffff", r"\uffff"), ("\x00", r"\x00")):
+        with pytest.raises(dd.errors.InputError, match=r"metadata\['event'\]: has " + re.escape(shown)):
+            dd.Record([0.0, 1.0], 0.01, metadata={"event": wrong})
+        with pytest.raises(dd.errors.InputError, match="must be"):
+            dd.Record([0.0, 1.0], 0.01, name=wrong)
+    assert (
+        dd.Record([0.0, 1.0], 0.01, metadata={"note": "two\nlines, \u00a0\tand"}).metadata["note"].startswith("two\n")
+    )

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from dondolo.results import Certified
 from scipy import stats
 
 import dondolo as dd
+from dondolo.results import Certified
 
 STILL = dd.Record(np.zeros(2), 0.01, name="still")
 LEVELS = [0.3, 0.6, 0.9]
@@ -18,7 +18,7 @@ RK45 = dd.Solver(engine="rk45")
 WALLS = {
     "one_sided": (dd.OneSidedWall(3.0, 0.25, name="facade"), 0.05),
     "free_standing": (dd.FreeStandingWall(2.0, 0.3, name="block"), 0.01),
-    "two_block": (dd.TwoBlockWall(3.0, 0.25, name="strip"), 0.02),
+    "two_block": (dd.TwoBlockWall(3.0, 0.25, hinge=0.5, name="strip"), 0.02),
     "tied": (dd.OneSidedWall(6.0, 0.5, ties=[dd.Tie(5.5, area=4e-5, length=6.0)], name="tied"), 0.05),
 }
 
@@ -151,11 +151,12 @@ def test_the_same_by_threads_parts_and_single_motions(varying, few):
 def test_the_executable_has_the_same_motions(root, executable, tmp_path):
     """A wall, the same as a row of a population, and a history: files, `run_case` and objects."""
     catalogue = root / "data/records/synthetic44.csv"
-    wall = dd.TwoBlockWall(3.0, 0.25, restitution_sd=0.02, restitution_seed=4, name="strip")
-    columns = "mechanism = 'two_block', height = 3.0, thickness = 0.25, restitution_sd = 0.02, restitution_seed = 4"
+    wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.5, restitution_sd=0.02, restitution_seed=4, name="strip")
+    columns = "mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.5"
+    columns += ", restitution_sd = 0.02, restitution_seed = 4"
     (tmp_path / "walls.csv").write_text(
-        "name,mechanism,height,thickness,restitution_sd,restitution_seed\nstrip,two_block,3.0,0.25,0.02,4\n"
-        "plain,two_block,3.0,0.25,,\n"
+        "name,mechanism,height,thickness,hinge,restitution_sd,restitution_seed\nstrip,two_block,3.0,0.25,0.5,0.02,4\n"
+        "plain,two_block,3.0,0.25,0.5,,\n"
     )
     common = f"&records catalogue = '{catalogue}' /\n&stripes im = 'pga', levels = 0.3, 0.6, 0.9 /\n"
     cases = {
@@ -179,7 +180,7 @@ def test_the_executable_has_the_same_motions(root, executable, tmp_path):
     assert [row["restitution_sd"] for row in rows] == ["2.0000000000000000E-02", ""]
     assert [row["restitution_seed"] for row in rows] == ["4.0000000000000000E+00", ""]
     counts = dd.read_results(tmp_path / "out/typology").typology.exceedances[-1].T
-    plain = stripes_of(dd.TwoBlockWall(3.0, 0.25), records)
+    plain = stripes_of(dd.TwoBlockWall(3.0, 0.25, hinge=0.5), records)
     assert counts.tolist() == [expected.collapses.tolist(), plain.collapses.tolist()]
     motion = dd.simulate(wall, records[4], 3.0)
     assert np.array_equal(dd.read_results(tmp_path / "out/history").response.rotation, motion.rotation)
@@ -216,7 +217,7 @@ def test_certified_motions_have_the_same_draws(few):
         ({"restitution_value": 0.0, "restitution_sd": 0.001}, "must be at most 0, so that all values"),
         ({"restitution_seed": 3}, "restitution_seed: only with restitution_sd"),
         ({"restitution_sd": 0.01, "restitution_seed": 0}, "restitution_seed = 0: must lie between 1 and 1e6"),
-        ({"restitution_sd": 0.01, "restitution_seed": 1.5}, "restitution_seed = 1.5: must be a whole number"),
+        ({"restitution_sd": 0.01, "restitution_seed": 1.5}, "restitution_seed = 1.5: must be an integer"),
     ],
 )
 def test_what_cannot_be(given, sentence):

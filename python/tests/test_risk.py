@@ -12,12 +12,12 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.curves.risk_of_walls import WallFrequencies
-from dondolo.hazard import integrals as integrals_module
 from refusals import refused
 from scipy import integrate, stats
 
 import dondolo as dd
+from dondolo.curves.risk_of_walls import WallFrequencies
+from dondolo.hazard import integrals as integrals_module
 
 LEVELS = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4]
 FREQUENCY = [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6, 2e-7, 5e-9]
@@ -126,7 +126,7 @@ def test_the_same_in_closed_form_step_by_step(hazard, curve):
 @pytest.mark.parametrize(("theta", "beta"), [(0.6, 0.4), (0.05, 0.9), (20.0, 0.3), (0.6, 0.01), (0.6, 3.0)])
 def test_closed_form_keeps_its_digits_in_the_tails(hazard, theta, beta):
     """Bin by bin from far below the median to far above it, against Gauss's rule with 40 points in each."""
-    curve = replace(lognormal(theta, beta), saturation=0.7)
+    curve = replace(lognormal(theta, beta), upper_asymptote=0.7)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         risk = curve.risk(hazard)
@@ -234,7 +234,7 @@ def test_bounds_end_at_the_saturation(curve):
     """All contributions are those of the walls that can collapse, those beyond the hazard curve too."""
     hazard = dd.HazardCurve([0.3, 0.6], [4e-3, 1e-3])
     with pytest.warns(dd.errors.DondoloWarning, match="too short"):
-        some, every = (replace(curve, saturation=share).risk(hazard) for share in (0.7, 1.0))
+        some, every = (replace(curve, upper_asymptote=share).risk(hazard) for share in (0.7, 1.0))
     for part in ("inside", "below", "above", "bounds"):
         assert getattr(some, part) == pytest.approx(0.7 * np.array(getattr(every, part)), rel=1e-12), part
     assert some.above[1] == pytest.approx(7e-4, rel=1e-12)
@@ -317,18 +317,18 @@ def people(records):
         dd.OneSidedWall(1.5, 0.25, name="a"),
         dd.OneSidedWall(1.5, 0.25, name="b"),
         dd.OneSidedWall(2.0, 0.25, name="c"),
-        dd.TwoBlockWall(2.0, 0.12, name="c"),
+        dd.TwoBlockWall(2.0, 0.12, hinge=0.5, name="c"),
         dd.FreeStandingWall(2.0, 0.3, name="c"),
         dd.OneSidedWall(1.5, 0.8, name="d"),
         dd.OneSidedWall(6.0, 0.5, name="e"),
-        dd.TwoBlockWall(3.0, 0.6, name="e"),
+        dd.TwoBlockWall(3.0, 0.6, hinge=0.5, name="e"),
     ]
     p_occ, groups = [1.0, 0.0, 0.5, 0.3, 0.2, 1.0, 0.25, 1.0], ["low"] * 6 + ["high"] * 2
     weights = [1.0, 1.0, 2.0, 2.0, 2.0, 0.5, 3.0, 3.0]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         levels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6]
-        population = dd.Population(walls, weights, groups=groups, p_occ=p_occ)
+        population = dd.Population(walls, weights, group_names=groups, p_occ=p_occ)
         made = dd.typology(population, records[::4], levels, progress=False)
     assert {"no_collapse", "ok"} < {curve.status for curve in made.curves}
     return made
@@ -338,7 +338,7 @@ def losses(people, hazard, years, group=""):
     """Bounds of the share lost in some years: walls, and combinations of what can occur in them, one by one."""
     walls, rows = {}, people.population
     for i, wall in enumerate(rows):
-        if group in ("", rows.groups[i]):
+        if group in ("", rows.group_names[i]):
             walls.setdefault(wall.name, []).append(i)
     weight, sums = 0.0, np.zeros(2)
     for one in walls.values():
@@ -436,7 +436,7 @@ def test_time_ends_at_the_saturation(people, records):
         assert never["all"].risk(dd.HazardCurve(LEVELS, FREQUENCY)).bounds == (0.0, 0.0)
     # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
     fit = two["all"].fit.risk(hazard)
-    assert two["all"].fit.saturation == 0.5
+    assert two["all"].fit.upper_asymptote == 0.5
     assert fit.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=0.01)
     assert fit.probability(1e6) == pytest.approx(0.5)
     alone = two["one_sided"].risk(hazard)

@@ -10,12 +10,12 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.curves.risk_uncertainty import _parameters
-from dondolo.hazard.integrals import nodes
 from refusals import refused
 from scipy import optimize, stats
 
 import dondolo as dd
+from dondolo.curves.risk_uncertainty import _parameters
+from dondolo.hazard.integrals import nodes
 
 LEVELS = np.array([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4])
 MEAN = np.array([0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6, 2e-7, 5e-9])
@@ -38,7 +38,7 @@ def test_closed_form():
     """Of a power law ln lambda is normal where ln theta is, and its variance is k^2 times as large."""
     k, se = 2.5, 0.1
     risk = curve_of([[se**2, 0.0], [0.0, 0.0]]).risk(dd.HazardCurve.power_law(1e-4, k))
-    found = risk.uncertainty(n_draws=40_000, seed=3)
+    found = risk.uncertainty(n_draws=40_000, rng=3)
     ln = np.log(found.annual_frequency / risk.annual_frequency)
     assert stats.kstest(ln, stats.norm(0.0, k * se).cdf).pvalue > 0.01
     assert found.interval() == pytest.approx(risk.annual_frequency * np.exp([-1.96 * k * se, 1.96 * k * se]), rel=0.01)
@@ -60,7 +60,7 @@ def test_the_slope_is_drawn_as_its_interval_says(hazard):
     found = curve.risk(hazard).uncertainty()
     again = curve.risk(hazard).uncertainty()
     np.testing.assert_array_equal(found.annual_frequency, again.annual_frequency)
-    other = curve.risk(hazard).uncertainty(seed=1)
+    other = curve.risk(hazard).uncertainty(rng=1)
     assert found.interval() != other.interval()
     np.testing.assert_allclose(found.interval(), other.interval(), rtol=0.05)
 
@@ -103,7 +103,7 @@ def test_curves_that_are_open(hazard):
         assert wide.risk(hazard).annual_frequency == pytest.approx(0.5 * MEAN[0], rel=1e-5)
     endless = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5)).uncertainty(n_draws=1000)
     assert endless.interval()[1] == np.inf
-    half = replace(curve, saturation=0.5).risk(hazard).uncertainty(n_draws=1000)
+    half = replace(curve, upper_asymptote=0.5).risk(hazard).uncertainty(n_draws=1000)
     np.testing.assert_array_equal(half.annual_frequency, 0.5 * found.annual_frequency)
 
 
@@ -163,7 +163,7 @@ def people(records):
     walls = [
         dd.OneSidedWall(1.5, 0.25, name="a"),
         dd.OneSidedWall(2.0, 0.25, name="b"),
-        dd.TwoBlockWall(2.0, 0.12, name="b"),
+        dd.TwoBlockWall(2.0, 0.12, hinge=0.5, name="b"),
         dd.OneSidedWall(3.0, 0.25, name="c"),
         dd.OneSidedWall(1.5, 0.9, name="d"),
     ]

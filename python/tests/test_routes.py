@@ -8,14 +8,15 @@ import dataclasses
 import io
 import subprocess
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo._fortran.files import TABLES
-from dondolo.exchange import running
 
 import dondolo as dd
+from dondolo._fortran.files import TABLES
+from dondolo.exchange import running
 
 ROOT = Path(__file__).resolve().parents[2]
 READY = sorted(path.stem for path in (ROOT / "data/cases").glob("*.nml"))
@@ -46,7 +47,7 @@ MORE = {
     "designs_in_states": ("designs", {"&stripes": "&stripes edp_thresholds = 0.4,"}),
     "few_variants": (
         "uncertain_strip",
-        {"samples = 200": "samples = 40", "count = 15": "count = 5, edp_thresholds = 0.3, 1.0"},
+        {"variants = 200": "variants = 40", "count = 15": "count = 5, edp_thresholds = 0.3, 1.0"},
     ),
 }
 CASES = [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in (*READY, *MORE)]
@@ -114,7 +115,7 @@ def differences(mine, theirs, place, ignored):
             yield f"{place}: {list(mine)}, {list(theirs)}"
         for key in mine.keys() & theirs.keys():
             yield from differences(mine[key], theirs[key], f"{place}[{key!r}]", ignored)
-    elif isinstance(mine, (list, tuple)):
+    elif isinstance(mine, Sequence) and not isinstance(mine, str):
         if len(mine) != len(theirs):
             yield f"{place}: {len(mine)}, {len(theirs)}"
         for i, (one, two) in enumerate(zip(mine, theirs, strict=False)):

@@ -151,7 +151,7 @@ def test_walls_and_their_mechanisms():
     assert [wall.name for wall in people[:4]] == ["facades 0001", "facades 0001", "facades 0002", "facades 0002"]
     assert [wall.mechanism for wall in people[:4]] == ["one_sided", "two_block", "one_sided", "two_block"]
     assert people.p_occ[:4].tolist() == [0.6, 0.4, 0.6, 0.4]
-    assert set(people.groups) == {"facades"}
+    assert set(people.group_names) == {"facades"}
     assert (people.weights == 7.0).all()
     for what in ("height", "thickness", "density"):
         assert np.array_equal(column(people, what), column(people, what, "two_block"))
@@ -160,7 +160,7 @@ def test_walls_and_their_mechanisms():
     assert len(set(hinge)) == 50
     alone = dd.Population.sample("two_block", 12345, 3, height=3.0, thickness=0.25, gravity=9.80665, name="strip")
     assert (alone[0].name, alone[-1].name, alone[0].gravity) == ("strip 00001", "strip 12345", 9.80665)
-    assert alone.groups[0] == ""
+    assert alone.group_names[0] == ""
     both = dd.Population.sample(["free_standing", "one_sided"], 1, 3, height=3.0, thickness=0.5)
     assert [wall.mechanism for wall in both] == ["free_standing", "one_sided"]
 
@@ -458,7 +458,7 @@ def test_what_the_historic_centre_is_made_of(root):
     people = dd.read_case(root / "data/cases/historic_centre.nml").population
     walls = len({wall.name for wall in people})
     assert 200 <= walls <= 300
-    assert set(people.groups) == {"row houses", "town houses", "palaces", "gables", "parapets"}
+    assert set(people.group_names) == {"row houses", "town houses", "palaces", "gables", "parapets"}
     assert set(column(people, "thickness")) == {0.12, 0.25, 0.38, 0.51}
     storeys = column(people, "height", "two_block")
     assert ((storeys >= 2.8) & (storeys <= 4.5)).all()

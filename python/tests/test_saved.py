@@ -11,10 +11,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import study
-from dondolo._storage import saved, tables
-from dondolo.curves.limited import Limits, limited
 
 import dondolo as dd
+from dondolo._storage import saved, tables
+from dondolo.curves.limited import Limits, limited
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -41,7 +41,7 @@ def results(stripes, few, wall):
         dd.OneSidedWall(1.8, 0.25, name="d"),
     ]
     groups, p_occ = ["low", "low", "high", "low", "high"], [0.4, 0.6, 1.0, 1.0, 0.5]
-    population = dd.Population(walls, [2.0, 2.0, 0.5, 1.0, 1.0], groups=groups, p_occ=p_occ, origin=["a survey"])
+    population = dd.Population(walls, [2.0, 2.0, 0.5, 1.0, 1.0], group_names=groups, p_occ=p_occ, origin=["a survey"])
     people = dd.typology(population, few, edp_thresholds=[0.1, 0.4], polarity="both", **two)
     one = dd.typology(walls[:1] + walls[-1:], few, **two)
     strip, wide = dd.TwoBlockWall(3.0, 0.25), [0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0]
@@ -70,12 +70,13 @@ def results(stripes, few, wall):
             steel={"folds": 3.0},
             progress=False,
         ),
-        "uncertain wall": dd.uncertain_wall(
+        "uncertain wall": dd.propagate_uncertainty(
             strip, shaking, wide, sources={"hinge": dd.distributions.Uniform(0.5, 0.7)}, n_variants=10, progress=False
         ),
         "hinges": dd.weakest_hinge(strip, shaking, wide, hinges=[0.5, 0.6, 0.7], progress=False),
         "bootstrap": curve.bootstrap(n_resamples=20),
         "goodness": curve.goodness_of_fit(n_resamples=20),
+        "error of the model": curve.with_model_error(-0.1, 0.3),
         "hazard": hazard,
         "power law": dd.HazardCurve.power_law(1e-4, 2.0),
         "risk": curve.risk(hazard),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import copy
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import threading
@@ -22,13 +24,14 @@ import dondolo as dd
 pytest.importorskip("starlette", reason="starlette is not installed")
 pytest.importorskip("httpx", reason="httpx is not installed")
 
+from refused_states import states
+from starlette.testclient import TestClient
+
 from dondolo.checks.ntc import Verdict
 from dondolo.exchange.case_text import case_text
 from dondolo.reporting.properties_it import MEANINGS
 from dondolo.serve import documents
 from dondolo.serve.server import application, beginning_of, warm_up
-from refused_states import states
-from starlette.testclient import TestClient
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore:&check")
 PORT, TOKEN = 8123, "a-token"
@@ -191,7 +194,7 @@ def test_what_is_shown_is_what_the_executable_computes(name, page, root, tmp_pat
 
 
 ROOFS = ["gable", "garden_wall", "parapet", "parapet_on_building", "pinnacle"]
-READY = ["facade", "facade_strip", "tied_facade", "two_block", *ROOFS]
+READY = ["compound", "facade", "facade_strip", "tied_facade", "two_block", "elastic_strip", *ROOFS]
 
 
 @pytest.mark.parametrize("name", READY)
@@ -252,7 +255,10 @@ def test_anchors_that_nobody_has_given(page):
     for one, other, is_open in [(TIED, bare, True), (bare, TIED, True), (plated, bare, False)]:
         assert curve(page, one | levels, b=other | levels)["comparison"]["unchecked"] == is_open
     notes = curve(page, TIED | levels, lang="it")["check"]["notes"]
-    assert notes == [
+    # The index with and without the tie has a note of its own
+    assert sum("senza contare la catena 1" in note for note in notes) == 1
+    notes = [note for note in notes if "senza contare la catena 1" not in note]
+    assert [note for note in notes if not note.startswith("fattore di confidenza")] == [
         "ancoraggio di catena 1 non verificato: non sono assegnati né il capochiave né la forza per cui cede"
     ]
 
@@ -263,19 +269,32 @@ def test_verdicts_are_the_library_s(page):
     assert set(re.findall(r'"verdict\.([\w ]+)": \["', words)) == set(get_args(Verdict))
     seen = set()
     weak = TIED["wall"] | {"tie_anchor_force": [2e3]}
-    for wall, ag in [(TIED["wall"], 0.05), (TIED["wall"], 0.4), (BARE["wall"], 0.05), (weak, 0.05)]:
-        settings = TIED | {"wall": wall, "check": TIED["check"] | {"ag": [ag], "behaviour": 2.0}}
+    for wall, ag, more in [
+        (TIED["wall"], 0.05, {}),
+        (TIED["wall"], 0.4, {}),
+        (BARE["wall"], 0.05, {}),
+        (weak, 0.05, {"use_class": "IV"}),
+        (BARE["wall"], 0.05, {"friction": 0.01}),
+    ]:
+        settings = TIED | {"wall": wall, "check": TIED["check"] | {"ag": [ag], "behaviour": 2.0} | more}
         settings["stripes"] = {"im": "pga", "levels": [0.4, 0.8, 1.2]}
         shown = curve(page, settings)
         case = dd.results.Case.from_text(shown["text"], dd.example_records())
         check = dd.check_ntc(
-            case.population[0], case.site, knowledge_factor=case.knowledge_factor, behaviour=case.behaviour
+            case.population[0],
+            case.site,
+            knowledge_factor=case.knowledge_factor,
+            behaviour=case.behaviour,
+            friction=more.get("friction"),
         )
-        assert shown["check"]["verdicts"] == [[*key, check._verdict(key)] for key in check.verified]
+        assert shown["check"]["verdicts"] == [
+            [*key, check._verdict(key), key in check.required] for key in check.verified
+        ]
+        assert ("linear", "SLD") in check.required or "use_class" not in more
         assert {(one, state) for one, state, _ in shown["check"]["capacities"]} == set(check.capacities) - set(
             check.not_applicable
         )
-        seen |= {verdict for *_, verdict in shown["check"]["verdicts"]}
+        seen |= {verdict for *_, verdict, _required in shown["check"]["verdicts"]}
     assert seen == set(get_args(Verdict))
 
 
@@ -308,8 +327,10 @@ def test_refusals_of_every_field_have_codes(page):
             assert one["variable"], one
             named.add(one["variable"])
     asked = {name for table in tables.values() for name in table}
-    # The last six are those of a wall given by a table, which no button of the page makes.
+    # All but three are those of a wall given by tables, which no button of the page makes.
     never = {"catalogue", "output", "histories", "table", "rotation", "inertia", "lever", "moment", "vertical_lever"}
+    never |= {"travel", "weighted_lever", "weight", "displacement", "bodies", "joints", "actions", "driver"}
+    never |= {"body_table", "joint_table", "action_table", "gravity_share"}
     assert asked - named <= never | {"sides", "top_share", "top_tilt"}
 
 
@@ -510,6 +531,153 @@ def test_documents(page):
     assert refused.json()["error"].startswith("case.nml: has no check")
 
 
+@pytest.fixture(scope="module")
+def moved(tmp_path_factory):
+    """A catalogue with vertical components, and its folder."""
+    folder, records = tmp_path_factory.mktemp("vertical"), dd.synthetic_records(6.5, 10.0, "shallow", n_records=16)
+    # Taken for the vertical components of the same earthquakes
+    ups = [dd.Record(up.acceleration, up.dt, up.name) for up in records[8:]]
+    both = [one.with_vertical(up, factor=0.8) for one, up in zip(records[:8], ups, strict=True)]
+    dd.RecordSet(both).to_catalogue(folder / "moved.csv")
+    return folder
+
+
+@pytest.mark.parametrize(
+    "given", ["", ", vertical = 'recorded'", ", vertical = 'recorded', vertical_factor = -1.7", ", polarity = 'both'"]
+)
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_vertical_components_are_those_of_the_executable(given, moved):
+    """With each factor, and with none, the page has the counts of a run of the case."""
+    path = moved / "case.nml"
+    path.write_text(
+        "&wall mechanism = 'one_sided', height = 3.0, thickness = 0.25 /\n"
+        f"&records catalogue = 'moved.csv'{given} /\n&stripes levels = 0.2, 0.3, 0.4, 0.5 /\n"
+    )
+    ran = dd.run_case(path, progress=False)
+    bench, start = beginning_of(str(path), None, 0)
+    there = TestClient(application(bench, start, "en", PORT, TOKEN), base_url=HOME, follow_redirects=False)
+    shown = curve(opened(there), start)
+    assert shown["stripes"][1] == ran.stripes.collapses.tolist()
+    assert shown.get("theta", np.nan) == pytest.approx(ran.fragility.theta, rel=0, nan_ok=True)
+    path.write_text(shown["text"])
+    again = dd.run_case(path, progress=False)
+    np.testing.assert_array_equal(again.stripes.edp, ran.stripes.edp)
+    record, wall = dd.read_case(path).records[2], ran.population[0]
+    motion = there.post("/motion", json={"settings": start, "record": 2, "pga": 0.3}).json()
+    assert motion["edp"] == dd.simulate(wall, record, 0.3 / record.intensity("pga")).edp
+
+
+def test_vertical_components_that_are_not_there(page):
+    """They are refused by the name of the variable, in the file that is opened and on the page."""
+    asked = {**TIED, "records": {"vertical": "recorded"}, "stripes": {"levels": [0.5]}}
+    opened_text = (
+        "&wall mechanism = 'one_sided', height = 3.0, thickness = 0.25 /\n&records catalogue = 'a.csv', vertical"
+    )
+    text = page.post("/open", json={"text": f"{opened_text} = 'recorded' /\n&stripes levels = 0.5 /"}).json()
+    for refused in (curve(page, asked), text):
+        assert [(one["code"], one["variable"], one["group"]) for one in refused["errors"]] == [
+            ("not_together", "vertical", "records")
+        ]
+
+
+def test_levels_that_are_chosen_change_nothing_else(page):
+    """The fits of damage states that the case asks for stay in it."""
+    stripes = {"im": "pga", "states": "ordinal", "edp_thresholds": [0.1, 0.4]}
+    shown = curve(page, {**TIED, "stripes": stripes}, auto=True)
+    case = dd.results.Case.from_text(shown["text"], dd.example_records())
+    assert case.states == "ordinal"
+    assert case.edp_thresholds.tolist() == [0.1, 0.4, 1.0]
+    # Equally spaced levels are levels.
+    spaced = {**TIED, "stripes": {"first": 0.2, "last": 0.8, "count": 4}}
+    assert curve(page, spaced)["levels"] == pytest.approx([0.2, 0.4, 0.6, 0.8])
+
+
+@pytest.mark.parametrize("lang", [["it"], {"a": 1}, 3, None, "de", True])
+@pytest.mark.parametrize("path", ["/curve", "/document"])
+def test_languages_that_are_none(path, lang, page):
+    settings = {**TIED, "stripes": {"im": "pga", "levels": [0.5]}}
+    refused = page.post(path, json={"settings": settings, "kind": "report", "lang": lang})
+    assert refused.status_code == 422
+    assert [(one["code"], one["variable"]) for one in refused.json()["errors"]] == [("not_a_word", "lang")]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--port", "99999"], "--port = 99999: must be an integer, between 0 and 65535"),
+        (["--port", "-1"], "--port = -1: must be an integer"),
+        (["--threads", "-1"], "threads = -1: must be an integer, between 0 and"),
+        (["--threads", "99999999999"], "threads = 99999999999: must be an integer"),
+        (["--lang", "xx"], "lang = 'xx': must be one of"),
+    ],
+)
+def test_absurd_options(options, words, root, tmp_path):
+    """One line each, before anything is read."""
+    command = [sys.executable, "-m", "dondolo", "serve", "--no-browser", *options]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=60, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    (line,) = done.stderr.splitlines()
+    assert line.startswith(f"dondolo: {words}")
+
+
+def _asked_in_vain(client, path, body):
+    with contextlib.suppress(Exception):
+        client.post(path, json=body)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("what", ["curve", "document"])
+def test_signals_end_it_whatever_runs(number, what, root, tmp_path):
+    """Within two seconds (more on a busy machine), with its processes and its temporary folders."""
+    httpx = pytest.importorskip("httpx")
+    settings = {**BARE, "stripes": {"im": "pga", "levels": (0.05 * np.arange(1, 120)).tolist()}}
+    # Slow on purpose
+    settings["solver"] = {"engine": "rk45", "rtol": 1e-12, "atol": 1e-14}
+    command = [sys.executable, "-m", "dondolo", "serve", "--no-browser", "--records"]
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    with subprocess.Popen(
+        [*command, root / "data/records/synthetic44.csv"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+    ) as server:
+        try:
+            at, token = re.fullmatch(r"(.*)/\?token=([\w-]+)", server.stdout.readline().strip()).groups()
+            client = httpx.Client(base_url=at, trust_env=False, timeout=60)
+            for _ in range(100):
+                with contextlib.suppress(httpx.ConnectError):
+                    client.get("/", params={"token": token})
+                    break
+                time.sleep(0.1)
+            body = {"settings": settings, "kind": "report", "lang": "en"}
+            threading.Thread(target=_asked_in_vain, args=(client, f"/{what}", body), daemon=True).start()
+            time.sleep(2.0)
+            assert list(tmp_path.iterdir())
+            began = time.monotonic()
+            server.send_signal(number)
+            server.wait(30.0)
+            took = time.monotonic() - began
+            said = server.stderr.read()
+        finally:
+            server.kill()
+    assert took < 2.0 + 4.0 * os.getloadavg()[0] / (os.cpu_count() or 1)
+    assert server.returncode == (1 if number == signal.SIGINT else 128 + number)
+    assert said == ("dondolo: interrupted\n" if number == signal.SIGINT else "")
+    assert list(tmp_path.iterdir()) == []
+    left = [one for one in Path("/proc").glob("[0-9]*/cmdline") if str(tmp_path).encode() in _read(one)]
+    assert left == []
+
+
+def _read(path):
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""
+
+
 def test_starts_that_are_refused(root, tmp_path):
     """A case or a catalogue that the page cannot show is named before anything is served."""
     for case, records, match in [
@@ -520,6 +688,17 @@ def test_starts_that_are_refused(root, tmp_path):
         given = [None if one is None else str(one) for one in (case, records)]
         with pytest.raises(dd.errors.InputError, match=match):
             beginning_of(*given, 0)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig"])
+@pytest.mark.parametrize("is_given", [False, True])
+def test_a_case_is_read_in_the_encodings_of_the_executable(root, tmp_path, encoding, is_given):
+    case, catalogue = tmp_path / "case.nml", str(root / "data/records/synthetic44.csv")
+    text = (root / "data/cases/facade.nml").read_text(encoding="utf-8")
+    text = re.sub(r"catalogue *= *'[^']*'", f"catalogue = '{catalogue}'", text)
+    case.write_text(text, encoding=encoding)
+    start = beginning_of(str(case), catalogue if is_given else None, 0)[1]
+    assert start["wall"] == beginning_of(str(root / "data/cases/facade.nml"), catalogue, 0)[1]["wall"]
 
 
 def test_text_of_a_state_is_the_case(bench):

@@ -9,10 +9,10 @@ matplotlib.use("agg")
 
 import numpy as np
 import pytest
-from dondolo._fortran.library import shown_probability
 from public import public_things
 
 import dondolo as dd
+from dondolo._fortran.library import shown_probability
 
 
 @pytest.mark.parametrize(
@@ -72,6 +72,9 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     risk = curve.risk(hazard)
     two_block = dd.TwoBlockWall(3.0, 0.25)
     arch = dd.TabulatedWall(2.0, table=root / "data/walls/arch.csv", sides=1, restitution_value=0.9)
+    moving = {"joints": [dd.Pin(1, 0, (0.0, 0.0))], "sides": 1, "restitution_value": 0.9}
+    body = dd.Body([dd.Part([(0.0, 0.0), (-0.3, 0.0), (-0.3, 2.0), (0.0, 2.0)], width=1.0, density=1800.0)])
+    chain = dd.Chain(height=2.0, bodies=[body], **moving)
     pulses = {"frequencies": [1.0, 2.0], "amplitudes": [0.2, 0.6]}
     target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
     prefix = tmp_path_factory.mktemp("results") / "people"
@@ -82,9 +85,10 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     case = dd.read_case(path)
     house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
     found = [
-        wall, dd.FreeStandingWall(1.5, 0.25), two_block, arch, dd.Population([wall, other]), house,
+        wall, dd.FreeStandingWall(1.5, 0.25), two_block, arch, chain, dd.Population([wall, other]), house,
         records[0], dd.RecordSet(few), dd.RecordSet(records).select(target, 5), records[0].spectrum([0.1, 1.0]), site,
         target, stripes, curve, curve.bootstrap(n_resamples=20), curve.goodness_of_fit(), ida, ida.fit(),
+        curve.with_model_error(-0.1, 0.3),
         dd.cloud(wall, records),
         curve.compare(dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
         people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
@@ -93,12 +97,12 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         dd.compare_intensities(wall, records, ["pga", "pgv"], n_levels=6, n_resamples=20, **quiet),
         dd.overturning_spectrum(wall, dd.pulses.one_sine, **pulses, **quiet),
         dd.weakest_hinge(two_block, few, levels, hinges=[0.5, 0.7], **quiet),
-        dd.uncertain_wall(
+        dd.propagate_uncertainty(
             two_block, few, levels, sources={"hinge": dd.distributions.Uniform(0.5, 0.7)}, n_variants=10, **quiet
         ),
         dd.read_nrml(nrml), dd.cloud(wall, records, scale=3.0).fit(), dd.FunctionFragility(curve),
         dd.Study(few, levels), dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
-        dd.read_results(prefix),
+        dd.read_results(prefix), dd.read_site_hazards(hazard.to_openquake(prefix.parent, site=(11.6, 44.8))),
     ]  # fmt: skip
     return {type(one).__name__: one for one in found}
 
@@ -110,9 +114,11 @@ def rows(thing):
 def test_every_result_is_a_table(things):
     """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
     plain = {
-        "Bed", "Boundary", "Certified", "Choice", "Curve", "Group", "Interlock", "Load", "Logistic", "Lognormal",
-        "Normal", "Problem", "PushedMass", "Regression", "RotD", "Section", "Solver", "Spring", "State", "Terms",
-        "Thrust", "Tie", "Triangular", "Uniform", "Wall", "Window", "Work",
+        "Body", "Boundary", "Certified", "Choice", "Curve", "DistributedSpring", "GivenMass", "Group",
+        "Guide", "InertialMass", "Interlock", "Load", "Logistic", "Lognormal", "Normal", "Part", "Pin",
+        "PointLoad", "PointMass", "PointThrust", "Problem", "Regression", "RotD", "Section", "Sector",
+        "Solver", "Spring", "State", "Terms", "Thrust", "Tie", "Triangular", "Uniform", "Wall", "Wedge",
+        "Window", "Work",
     }  # fmt: skip
     kinds = {
         name for name, one in public_things().items() if inspect.isclass(one) and not issubclass(one, BaseException)

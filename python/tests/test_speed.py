@@ -12,9 +12,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from costs import growth
-from dondolo._fortran import _core
 
 import dondolo as dd
+from dondolo._fortran import _core
 
 pytestmark = pytest.mark.slow
 

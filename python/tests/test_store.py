@@ -34,7 +34,7 @@ def folder(tmp_path, root):
         *(dd.OneSidedWall(2.0 + 0.3 * i, 0.3, name=f"b{i}") for i in range(5)),
         dd.FreeStandingWall(1.2, 0.2),
     ]
-    dd.Population(walls, groups=["x", "x", "y", "", "y", "", "", ""]).to_csv(tmp_path / "walls.csv")
+    dd.Population(walls, group_names=["x", "x", "y", "", "y", "", "", ""]).to_csv(tmp_path / "walls.csv")
     (tmp_path / "a.nml").write_text(CASE.format(records=root / "data/records/synthetic44.csv"))
     return tmp_path
 

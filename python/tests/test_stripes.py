@@ -8,10 +8,10 @@ import time
 
 import numpy as np
 import pytest
-from dondolo._fortran import _core
-from dondolo.analysis import request
 
 import dondolo as dd
+from dondolo._fortran import _core
+from dondolo.analysis import request
 
 LEVELS = [0.2, 0.5, 0.9]
 

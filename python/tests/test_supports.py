@@ -227,7 +227,7 @@ def test_the_building_may_be_uncertain():
         "damping": dd.distributions.Uniform(0.05, 0.15),
         "level_top": dd.distributions.Uniform(6.0, 9.0),
     }
-    found = dd.uncertain_wall(wall, records, levels, sources=sources, n_variants=30, progress=False)
+    found = dd.propagate_uncertainty(wall, records, levels, sources=sources, n_variants=30, progress=False)
     variants = found.typology.walls
     assert len({variant.building.period for variant in variants[:30]}) == 30
     assert len({variant.support_share for variant in variants[:30]}) == 30
@@ -246,7 +246,7 @@ def test_the_building_may_be_uncertain():
         stripes = dd.multiple_stripe(alone, records, levels, progress=False)
         assert np.array_equal(stripes.collapses, found.typology.exceedances[-1, :, number])
     with pytest.raises(dd.errors.InputError, match="'period': must be one of height"):
-        dd.uncertain_wall(
+        dd.propagate_uncertainty(
             facade(None), records, levels, sources={"period": dd.distributions.Uniform(0.3, 0.45)}, n_variants=8
         )
 
@@ -271,7 +271,7 @@ def test_an_uncertain_building_in_a_case(run, tmp_path):
         f"""&job task = 'typology', output = 'case' /
 &wall name = 'front', mechanism = 'one_sided', height = 9.0, thickness = 0.5 /
 &building period = 0.3, storeys = 3, level = 0.0, building_height = 9.0 /
-&uncertainty period = 'uniform(0.30, 0.45)', damping = 'uniform(0.05, 0.15)', samples = 24 /
+&uncertainty period = 'uniform(0.30, 0.45)', damping = 'uniform(0.05, 0.15)', variants = 24 /
 &records catalogue = '{Path(__file__).parents[2] / "data/records/synthetic44.csv"}' /
 &stripes first = 0.1, last = 1.0, count = 10 /
 """
@@ -286,3 +286,41 @@ def test_an_uncertain_building_in_a_case(run, tmp_path):
     row = next(i for i, wall in enumerate(found.walls) if wall.name == "front, period at 95%")
     alone = dd.multiple_stripe(found.walls[row], dd.example_records(), found.levels, progress=False)
     assert np.array_equal(alone.collapses, found.exceedances[-1, :, row])
+
+
+def test_an_ordinary_facade_is_drawn(records, tmp_path):
+    """Three storeys, three ties with plates, a building: what moves it has a name that a record may have."""
+    wall = dd.OneSidedWall(
+        sections=[dd.Section(3.2, 0.55), dd.Section(3.1, 0.45), dd.Section(2.9, 0.4)],
+        loads=[dd.Load(9e3, height=z, depth=0.15, inertia="both") for z in (3.2, 6.3)],
+        ties=[
+            dd.Tie(height=z, bar=0.02, spacing=2.5, length=9.0, plate_width=0.3, plate_height=0.3, plate_thickness=0.02)
+            for z in (3.0, 6.1, 8.9)
+        ],
+        masonry_compression=2e6,
+        masonry_shear=4e4,
+        masonry_tension=5e4,
+        building=dd.Building(0.35, storeys=3, level=0.0, level_top=9.2, building_height=9.2),
+        name="prospetto sud",
+    )
+    assert len(repr(wall)) > 1000
+    felt = records[0].under(wall)
+    assert felt.processing[-1] == "felt by wall 'prospetto sud'"
+    dd.simulate(wall, records[0], 1.5).plot().figure.savefig(tmp_path / "motion.png")
+
+
+def test_texts_made_of_long_names_are_shortened(records):
+    """Names of 1000 bytes are names; what is made of them is cut in its middle, and says which records it is of."""
+    wall = dd.OneSidedWall(3.0, 0.25, name="é" * 500, building=house(6.0))
+    one, other = (
+        dd.Record(records[k].acceleration[:400], records[k].dt, 999 * word + "!") for k, word in enumerate("ab")
+    )
+    several = dd.Building(
+        [0.3 + 0.003 * i for i in range(60)], damping=0.05, participation=[1.0 / (i + 1.7) for i in range(60)]
+    )
+    turned = one.rotate(other, 33.0)
+    for text in (*one.under(wall).processing, turned.name, *turned.processing, *one.on_floor(several).processing):
+        assert len(text.encode()) <= 1000
+        assert " ... " in text
+    assert turned.name.endswith("! at 33 degrees")
+    assert turned.processing[0].startswith("component at 33 degrees from 'a")

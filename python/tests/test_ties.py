@@ -7,9 +7,9 @@ from dataclasses import replace
 import matplotlib
 import numpy as np
 import pytest
-from dondolo.reporting.ties import ties as told
 
 import dondolo as dd
+from dondolo.reporting.ties import ties as told
 
 matplotlib.use("Agg")
 

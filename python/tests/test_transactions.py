@@ -14,9 +14,9 @@ import time
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from dondolo._fortran.files import TABLES, result_set, whole_file
 
 import dondolo as dd
+from dondolo._fortran.files import TABLES, result_set, whole_file
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 

@@ -9,12 +9,12 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from dondolo.analysis import request
-from dondolo.populations import blocks
-from dondolo.populations.combination import combine
 from refusals import refused
 
 import dondolo as dd
+from dondolo.analysis import request
+from dondolo.populations import blocks
+from dondolo.populations.combination import combine
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -54,7 +54,7 @@ def test_every_wall_is_its_own_analysis(typology, population, few):
 
 def test_a_fit_that_does_not_converge_ends_no_population(records):
     walls = [dd.OneSidedWall(3.0, 0.25, name="a"), dd.OneSidedWall(1.0, 0.5, name="b")]
-    people = dd.Population(walls, [1e-12, 1.0], groups=["rare", "frequent"])
+    people = dd.Population(walls, [1e-12, 1.0], group_names=["rare", "frequent"])
     with pytest.warns(dd.errors.DondoloWarning, match=r"the population has no fit \(.*status not_converged\)"):
         result = dd.typology(people, records, [0.2, 0.4, 0.8], progress=False)
     assert result["all"].fit.status == "not_converged"

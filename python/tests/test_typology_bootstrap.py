@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 import study
 from costs import growth
+from scipy import stats
+
+import dondolo as dd
 from dondolo.curves.sample import cluster_labels
 from dondolo.populations import bootstrap
 from dondolo.populations.bootstrap import resample_population
 from dondolo.populations.flags import Flags
-from scipy import stats
-
-import dondolo as dd
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -45,7 +45,7 @@ def mixed():
             count = records * (1 + i % 4 % 2)
             capacity = np.exp(rng.normal(rng.normal(0.0, 0.3), 0.5, count))
             reached.append(LEVELS[None, :, None] >= np.array([0.5, 1.0])[:, None, None] * capacity)
-    return dd.Population(walls, weights, groups=groups, p_occ=p_occ), flags_of(reached), reached
+    return dd.Population(walls, weights, group_names=groups, p_occ=p_occ), flags_of(reached), reached
 
 
 def test_flags(mixed):
@@ -66,7 +66,9 @@ def test_brute_force(mixed, mechanism, group, over):
     population, flags, reached = mixed
     state, samples = 0, 20
     result = resample_population(population, flags.at(state), LEVELS, samples, 5, over, mechanism, group)
-    names = list(dict.fromkeys(w.name for w, g in zip(population, population.groups, strict=True) if group in ("", g)))
+    names = list(
+        dict.fromkeys(w.name for w, g in zip(population, population.group_names, strict=True) if group in ("", g))
+    )
     rng = np.random.default_rng(5)
     records = np.ones((samples, 9), dtype=int)
     if "records" in over:
@@ -97,7 +99,7 @@ def test_brute_force(mixed, mechanism, group, over):
             assert (result.status[sample], np.isnan(result.theta[sample])) == ("", True)
             continue
         assert result.mean_fraction[sample] == pytest.approx(above / below, rel=1e-12)
-        assert result.saturation[sample] == pytest.approx(occurring / below, rel=1e-12)
+        assert result.upper_asymptote[sample] == pytest.approx(occurring / below, rel=1e-12)
         curve = dd.fit_fragility(LEVELS, np.minimum(above / occurring, 1.0), 1.0)
         if curve.has_fit and result.status[sample]:
             assert (result.theta[sample], result.beta[sample]) == pytest.approx((curve.theta, curve.beta), rel=1e-6)
@@ -162,7 +164,7 @@ def test_of_a_typology():
     assert samples.over == ("records", "walls")
     again = typology["all"].bootstrap(n_resamples=300)
     assert np.array_equal(samples.theta, again.theta, equal_nan=True)
-    assert np.std(np.log(typology["all"].bootstrap(n_resamples=300, seed=1).theta)) == pytest.approx(
+    assert np.std(np.log(typology["all"].bootstrap(n_resamples=300, rng=1).theta)) == pytest.approx(
         samples.se_ln_theta, rel=0.2
     )
     curve = typology["all"].fit
@@ -216,7 +218,7 @@ def test_errors(mixed):
         ({"over": "stones"}, "over = 'stones': must name 'records', 'walls' or both"),
         ({"over": ()}, r"over = \(\): must name"),
         ({"over": 3}, "over = 3: must name"),
-        ({"seed": "a"}, "seed = 'a': must be an integer"),
+        ({"rng": "a"}, "rng = 'a': must be an integer"),
         ({"events": ["a"] * 9}, "events: at least two are needed"),
         ({"n_resamples": 0}, "n_resamples = 0: must be an integer, at least 1"),
         ({"group": "west"}, "group = 'west': must be one of '', 'north', 'south'"),
@@ -268,7 +270,7 @@ def test_events_of_unequal_size(few):
         dd.typology(walls, records, LEVELS, polarity="both", progress=False) for records in (few, few[:6], few[6:])
     )
     expected = np.array([one["all"].mean_fraction for one in (whole, *parts)])
-    samples = whole["all"].bootstrap(n_resamples=400, seed=3, over="records", events=["large"] * 6 + ["small"] * 2)
+    samples = whole["all"].bootstrap(n_resamples=400, rng=3, over="records", events=["large"] * 6 + ["small"] * 2)
     off = np.abs(samples.mean_fraction[:, None] - expected).max(axis=2)
     assert off.min(axis=1).max() < 1e-12
     often = np.bincount(off.argmin(axis=1), minlength=3)
@@ -276,7 +278,7 @@ def test_events_of_unequal_size(few):
 
 
 def test_the_interval_ends_at_the_saturation(few):
-    """At strong motions the interval is that of the saturation."""
+    """At strong motions the interval is that of the upper asymptote."""
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     typology = dd.typology(dd.Population(walls, p_occ=[0.5, 0.2]), few, LEVELS, progress=False)
     assert typology["all"].bootstrap(n_resamples=50, over="records").interval(1e3) == pytest.approx(

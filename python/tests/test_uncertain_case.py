@@ -7,13 +7,13 @@ import sys
 
 import numpy as np
 import pytest
-from dondolo._fortran.uncertainty import sensitivity
 
 import dondolo as dd
+from dondolo._fortran.uncertainty import sensitivity
 
 CASE = """&job task = 'typology', output = 'out' /
 &wall name = 'strip', mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /
-&uncertainty samples = 60, seed = 3, {sources} /
+&uncertainty variants = 60, seed = 3, {sources} /
 &records catalogue = '{catalogue}' /
 &stripes first = 0.2, last = 3.0, count = 15 /
 """
@@ -208,7 +208,7 @@ def test_levels_without_medians(executable, root, tmp_path):
         ("", lambda text: text.replace("seed = 3, ", "seed = 3"), "a property must have a distribution"),
         ("hinge = 'uniform(0.9, 1.2)'", None, "&uncertainty: variant 'strip 00"),
         ("thick = 'uniform(0.9, 1.2)'", None, "thick"),
-        (SOURCES, lambda text: text.replace("samples = 60", "samples = 20"), "samples = 20: must be at least 38"),
+        (SOURCES, lambda text: text.replace("variants = 60", "variants = 20"), "variants = 20: must be at least 38"),
         (
             SOURCES,
             lambda text: text.replace("'typology'", "'stripes'"),

@@ -7,11 +7,11 @@ import re
 
 import numpy as np
 import pytest
-from dondolo._fortran.uncertainty import published_factors, sensitivity
-from dondolo.populations.uncertain_wall import _numbers
 from scipy import stats
 
 import dondolo as dd
+from dondolo._fortran.uncertainty import published_factors, sensitivity
+from dondolo.populations.uncertain_wall import _numbers
 
 LEVELS = np.arange(0.2, 2.6, 0.2)
 SOURCES = {
@@ -35,7 +35,7 @@ def wall():
 
 @pytest.fixture(scope="module")
 def found(wall, motions):
-    return dd.uncertain_wall(wall, motions, LEVELS, sources=SOURCES, n_variants=80, progress=False)
+    return dd.propagate_uncertainty(wall, motions, LEVELS, sources=SOURCES, n_variants=80, progress=False)
 
 
 def test_sample(found):
@@ -181,10 +181,13 @@ def test_indices_of_few_values():
 
 
 def test_published():
-    """Values as published; every name is a range of factors."""
+    """Values as published; every name is a distribution of factors."""
     published = published_factors()
-    assert (published["graziotti_2016"].low, published["graziotti_2016"].high) == (0.84, 0.90)
-    assert (published["elgawady_2010"].low, published["elgawady_2010"].high) == (0.90, 1.00)
+    assert published["graziotti_2016"][:3] == ("uniform", 0.84, 0.90)
+    assert published["elgawady_2010"][:3] == ("uniform", 0.90, 1.00)
+    assert published["colombo_2025"][:3] == ("normal", 0.990, 0.018)
+    assert "limestone" in published["colombo_2025"].source
+    assert "concrete" in published["elgawady_2010"].source
     assert all(name.split("_")[1] in one.source for name, one in published.items())
 
 
@@ -199,7 +202,7 @@ def test_one_sided_with_sections(motions):
         gravity=9.8,
         name="front",
     )
-    found = dd.uncertain_wall(whole, motions, LEVELS, sources=SOFT, n_variants=20, progress=False)
+    found = dd.propagate_uncertainty(whole, motions, LEVELS, sources=SOFT, n_variants=20, progress=False)
     one = found.sample[7]
     assert (one.sections, one.loads, one.gravity) == (whole.sections, whole.loads, 9.8)
     assert found.at_medians.theta == found.as_given.theta
@@ -211,7 +214,7 @@ def test_variants_without_a_fit(wall, motions, found):
     sources = {"thickness": dd.distributions.Uniform(0.15, 0.45)}
     levels = [0.3, 0.5, 0.7, 0.9]
     with pytest.warns(dd.errors.DondoloWarning, match="variants that have a fit") as caught:
-        few = dd.uncertain_wall(wall, motions, levels, sources=sources, n_variants=40, progress=False)
+        few = dd.propagate_uncertainty(wall, motions, levels, sources=sources, n_variants=40, progress=False)
     (told,) = (one.message for one in caught if one.message.code == "variants_without_fit")
     fitted = int(np.isfinite(few.thetas).sum())
     assert 8 <= fitted < 40
@@ -277,7 +280,7 @@ def test_plot(found):
 )
 def test_refused(wall, motions, sources, message):
     with pytest.raises(dd.errors.DondoloError, match=message):
-        dd.uncertain_wall(wall, motions, LEVELS, sources=sources, n_variants=12, progress=False)
+        dd.propagate_uncertainty(wall, motions, LEVELS, sources=sources, n_variants=12, progress=False)
 
 
 @pytest.mark.parametrize(
@@ -290,7 +293,7 @@ def test_refused(wall, motions, sources, message):
 )
 def test_texts_of_cases_are_refused_with_what_to_write(given, told):
     with pytest.raises(dd.errors.InputError, match=f"must be a distribution, here {told}; such texts are for cases"):
-        dd.uncertain_wall(dd.TwoBlockWall(3.0, 0.25), [], [0.5], sources={"hinge": given})
+        dd.propagate_uncertainty(dd.TwoBlockWall(3.0, 0.25), [], [0.5], sources={"hinge": given})
 
 
 @pytest.mark.parametrize(
@@ -299,6 +302,7 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
         (dd.OneSidedWall(1.5, 0.25), "graziotti_2016", "is of tests of mechanism = 'two_block'"),
         # Of a block that bounces off a transverse wall equation (2) is no ratio to Housner's value, and (4) is none.
         (dd.OneSidedWall(1.5, 0.25), "elgawady_2010", "is of tests of mechanism = 'free_standing'"),
+        (dd.OneSidedWall(1.5, 0.25), "colombo_2025", "is of tests of mechanism = 'free_standing'"),
         (dd.TwoBlockWall(2.7, 0.24), "elgawady_2010", "is of tests of mechanism = 'free_standing'"),
         (
             dd.TwoBlockWall(2.7, 0.24, restitution="impulse"),
@@ -325,7 +329,7 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
 )
 def test_a_published_range_is_of_its_model(wall, name, message):
     with pytest.raises(dd.errors.InputError, match=message):
-        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": name}, n_variants=8)
+        dd.propagate_uncertainty(wall, [], [0.5], sources={"restitution_factor": name}, n_variants=8)
 
 
 def test_an_uncertain_load_changes_the_model():
@@ -333,14 +337,14 @@ def test_an_uncertain_load_changes_the_model():
     wall = dd.TwoBlockWall(2.7, 0.24, overburden_inertia=1.0)
     sources = {"restitution_factor": "graziotti_2016", "overburden": dd.distributions.Uniform(4e3, 8e3)}
     with pytest.raises(dd.errors.InputError, match="for 'impulse', the model of a wall that lifts"):
-        dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=16)
+        dd.propagate_uncertainty(wall, [], [0.5], sources=sources, n_variants=16)
 
 
 def test_the_rescaled_range_gives_the_same_speeds():
     """Of the range that is named in place of the refused one."""
     wall = dd.TwoBlockWall(2.7, 0.24, hinge=0.62, restitution="impulse")
     with pytest.raises(dd.errors.InputError) as caught:
-        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"}, n_variants=8)
+        dd.propagate_uncertainty(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"}, n_variants=8)
     low, high = map(float, re.search(r"uniform\((\S+), (\S+)\)", str(caught.value)).groups())
     for factor, measured in ((low, 0.84), (high, 0.90)):
         speeds = [
@@ -355,8 +359,26 @@ def test_the_rescaled_range_gives_the_same_speeds():
 def test_free_standing_blocks_have_a_range(motions):
     wall = dd.FreeStandingWall(2.0, 0.3)
     sources = {"restitution_factor": "elgawady_2010"}
-    found = dd.uncertain_wall(wall, motions, [0.2, 0.4, 0.8, 1.6], sources=sources, n_variants=8, progress=False)
+    found = dd.propagate_uncertainty(wall, motions, [0.2, 0.4, 0.8, 1.6], sources=sources, n_variants=8, progress=False)
     assert found.values[0, 1] == pytest.approx(0.95)
+
+
+@pytest.mark.parametrize(
+    ("height", "sources", "sd"),
+    [(1.0, {}, 0.018), (3.6, {}, 0.0105), (2.7, {"height": dd.distributions.Uniform(2.0, 3.6)}, 0.0105)],
+)
+def test_restitution_of_stone(motions, height, sources, sd):
+    """The mean is kept, and no speed ratio reaches 1, however slender the most slender variant is."""
+    wall = dd.FreeStandingWall(height, 0.3)
+    sources = {"restitution_factor": "colombo_2025", **sources}
+    levels = [0.1, 0.2, 0.4, 0.8, 1.6]
+    found = dd.propagate_uncertainty(wall, motions, levels, sources=sources, n_variants=40, progress=False)
+    factors = np.array([one.restitution_factor for one in found.sample])
+    assert found.values[0, 1] == pytest.approx(0.990)
+    assert factors.mean() == pytest.approx(0.990, abs=1e-3)
+    assert factors.std() == pytest.approx(sd, rel=0.15)
+    assert max(one.restitution_coefficient for one in found.sample) < 1.0
+    assert "Normal(mean=0.99, sd=0.018, low=" in found.distributions[0]
 
 
 def test_stripes_name_the_range_of_their_model(motions):
@@ -375,7 +397,7 @@ def test_too_small_a_sample_is_refused_before_it_runs():
     wall = dd.TwoBlockWall(3.0, 0.25)
     sources = {"hinge": dd.distributions.Uniform(0.5, 0.6), "density": dd.distributions.Normal(1800.0, 90.0)}
     with pytest.raises(dd.errors.InputError, match="n_variants = 15: must be an integer, between 16 and 10000"):
-        dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=15)
+        dd.propagate_uncertainty(wall, [], [0.5], sources=sources, n_variants=15)
 
 
 def test_ends_must_be_named():

@@ -7,11 +7,11 @@ import pickle
 
 import numpy as np
 import pytest
-from dondolo.walls.shape import shape
 from hypothesis import given
 from hypothesis import strategies as st
 
 import dondolo as dd
+from dondolo.walls.shape import shape
 
 WALLS = [
     dd.OneSidedWall(height=3.0, thickness=0.25),
@@ -37,7 +37,7 @@ def test_values_of_the_theory():
 
 def test_defaults_come_from_fortran():
     wall = dd.TwoBlockWall(height=3.0, thickness=0.25)
-    assert (wall.density, wall.hinge, wall.overburden, wall.eccentricity) == (1800.0, 0.5, 0.0, 0.0)
+    assert (wall.density, wall.hinge, wall.overburden, wall.eccentricity) == (1800.0, 0.9, 0.0, 0.0)
     assert (wall.restitution, wall.restitution_factor, wall.gravity, wall.name) == ("default", 1.0, 9.81, "wall")
     assert wall.restitution_value is None
 

@@ -7,9 +7,9 @@ import warnings
 
 import numpy as np
 import pytest
-from dondolo.__main__ import main
 
 import dondolo as dd
+from dondolo.__main__ import main
 
 SHORT = dd.HazardCurve([0.1, 0.2], [0.01, 0.002])
 
@@ -83,7 +83,7 @@ def test_what_a_run_has_warned_of_is_not_repeated(ordinal, root, tmp_path, monke
 def test_codes_of_the_library_are_documented(root):
     """A constant has the name of its code, and the page has them all."""
     page = (root / "docs/files.md").read_text()
-    files = [*(root / "src/dondolo/case/warnings").glob("*_warnings.f90"), root / "src/dondolo/check/check_notes.f90"]
+    files = [*(root / "src/study/case/warnings").glob("*_warnings.f90"), root / "src/core/check/check_notes.f90"]
     heads = [re.search(r"(?s)   !> Codes.*?\n\n", path.read_text())[0] for path in files]
     codes = dict(re.findall(r"(\w+) = '(.*?)'", "".join(heads)))
     assert len(codes) >= 37

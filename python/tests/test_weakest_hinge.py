@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from dondolo.populations.weakest_hinge import _warnings
 
 import dondolo as dd
+from dondolo.populations.weakest_hinge import _warnings
 
 LEVELS = np.arange(0.2, 3.2, 0.2)
 HINGES = [0.45, 0.55, 0.65, 0.75, 0.85]

@@ -18,8 +18,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bombs import Bombs
+from contract import families as contract_of
 from faults import Faults
 from kills import Kills
+from pages import Pages
 from readers import COMMANDS, EXECUTABLE, FORTRAN, PYTHON, Attack, Tally
 from samples import ROOT, Programs
 from strangers import families as strangers_of
@@ -41,7 +43,7 @@ def main() -> int:
     parser.add_argument(
         "--only",
         nargs="*",
-        help="families, as the table names them, or files, bombs, strangers, faults, kills, workers",
+        help="families, as the table names them, or files, contract, bombs, strangers, faults, kills, workers, serve",
     )
     parser.add_argument("--case", metavar="FAMILY:NUMBER", help="a damaged file, as a failure names it")
     given = parser.parse_args()
@@ -89,13 +91,16 @@ def attack(programs: Programs, folder: Path, given: argparse.Namespace) -> Itera
     }
     strangers = strangers_of(programs, folder / "strangers", max(12, n))
     workers = Workers(programs, folder / "workers").families(max(1, n // 100))
+    pages = Pages(programs, folder / "pages").families(max(2, 30 * n // 1000))
     bombs = Bombs(programs, folder / "bombs").families()
     groups: dict[str, dict[str, Callable[[], Tally]]] = {
+        "contract": contract_of(programs.python, folder / "contract", given.cases),
         "bombs": bombs,
         "strangers": strangers,
         "faults": faults,
         "kills": interrupted,
         "workers": workers,
+        "serve": pages,
     }
     for group, families in groups.items():
         for family, attacked in families.items():

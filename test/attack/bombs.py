@@ -13,7 +13,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from readers import PYTHON, SANITIZERS, Reader, Tally
+from readers import PYTHON, SANITIZERS, Reader, Tally, template
 from samples import Programs, write_inputs
 
 # Wrong values of a list
@@ -101,10 +101,31 @@ def models() -> Iterator[bytes]:
     yield _NRML.format("", "\x1b[31m").encode()
 
 
+def templates() -> Iterator[bytes]:
+    """Templates of Word."""
+    entities = "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10}">' for i in range(1, 10))
+    parts = (
+        {"word/media/a.png": bytes(LARGE)},
+        {"word/a.xml": b"<a>" + bytes(100_000_000)},
+        {"word/a.xml": f'<!DOCTYPE a [<!ENTITY a0 "ha">{entities}]><a>&a9;</a>'.encode()},
+        {"word/a.xml": f'<!DOCTYPE a [<!ENTITY a0 "ha">{entities}]><a b="&a9;"/>'.encode("utf-16")},
+        {"word/a.xml": b'<!DOCTYPE a [<!ENTITY b SYSTEM "file:///dev/zero">]><a>&b;</a>'},
+        {"word/a.xml": b"<a>" * 500_000},
+        {f"word/{i}.bin": b"" for i in range(50_000)},
+    )
+    for members in parts:
+        made = io.BytesIO(template())
+        with zipfile.ZipFile(made, "a", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in members.items():
+                archive.writestr(name, content)
+        yield made.getvalue()
+
+
 def bombs() -> Iterator[tuple[str, bytes]]:
     """Families of readers, and files that are made to exhaust them."""
     yield from (("archive", one) for one in archives())
     yield from (("nrml", one) for one in models())
+    yield from (("template", one) for one in templates())
 
 
 def lists() -> Iterator[tuple[str, bytes]]:

@@ -112,6 +112,26 @@ class Damage(TextDamage):
                 archive.writestr(zipfile.ZipInfo(name), data, way)
         return made.getvalue()
 
+    def office(self, content: bytes) -> bytes:
+        """Damage a file of Word: the text or the bytes of one of its parts, which parts there are, its own bytes."""
+        kind = self.chance.random()
+        if kind < 0.2:
+            return self.bytes(content)
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            members = [(name, archive.read(name)) for name in archive.namelist()]
+        for _ in range(self.chance.choice((1, 1, 3))):
+            i = self.chance.randrange(len(members))
+            name, data = members[i]
+            if kind < 0.9:
+                members[i] = (name, self.text(data) if kind < 0.6 else self.bytes(data))
+            elif len(members) > 1:
+                members[i : i + 1] = self.chance.choice(([], [members[i]] * 2, [("word/x.xml", data)]))
+        made = io.BytesIO()
+        with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, data in members:
+                archive.writestr(name, data)
+        return made.getvalue()
+
     def _array(self, data: bytes) -> bytes:
         """Damage the head of an .npy: its type and shape, its length."""
         (length,) = struct.unpack_from("<H", data, 8)
@@ -193,7 +213,7 @@ def join_store(head: bytes, rows: list[bytes]) -> bytes:
 
 
 def fingerprint(*texts: bytes) -> bytes:
-    """Fingerprint of texts, as src/dondolo/base/numerics/fingerprint.f90 makes it."""
+    """Fingerprint of texts, as src/core/base/numerics/fingerprint.f90 makes it."""
     out = b""
     for prime, base, value in ((2147483647, 1103515245, 1), (2147483629, 1597334677, 2)):
         for text in texts:

@@ -6,6 +6,7 @@ names it. It must not crash, hang, leak, take much memory, or take what cannot b
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import random
@@ -14,6 +15,7 @@ import select
 import signal
 import subprocess
 import time
+import zipfile
 import zlib
 from collections import Counter
 from collections.abc import Iterator
@@ -33,7 +35,7 @@ SANITIZERS = {
     "OMP_NUM_THREADS": "1",
 }
 FORTRAN = ("case", "walls", "catalogue", "numbers", "records", "store")
-PYTHON = ("results", "archive", "hazard", "openquake", "nrml")
+PYTHON = ("results", "archive", "hazard", "openquake", "nrml", "template")
 COMMANDS = ("report", "plot", "xlsx", "curves")
 EXECUTABLE = ("study", "merge")
 
@@ -62,6 +64,34 @@ class Tally:
             return True
         self.failures.append(f"{label}: {said}")
         return False
+
+
+def template() -> bytes:
+    """A template of an office with a macro, a link and a field of another file; no archive without python-docx."""
+    try:
+        import docx
+    except ImportError:
+        return b"PK"
+    file, made, changed = docx.Document(), io.BytesIO(), io.BytesIO()
+    file.sections[0].header.paragraphs[0].text = "Studio"
+    file.save(made)
+    of = "http://schemas.microsoft.com/office/2006/relationships/vbaProject"
+    link = "http://schemas.openxmlformats.org/officeDocument/2006/relationships/hyperlink"
+    relations = (
+        f'<Relationship Id="m" Type="{of}" Target="vbaProject.bin"/><Relationship Id="l" Type="{link}" Target="x:/" '
+    )
+    field = '<w:p><w:fldSimple w:instr="INCLUDETEXT c:/a.txt"/></w:p>'
+    with zipfile.ZipFile(made) as archive, zipfile.ZipFile(changed, "w", zipfile.ZIP_DEFLATED) as office:
+        for name in archive.namelist():
+            content = archive.read(name)
+            if name == "word/_rels/document.xml.rels":
+                end = b"</Relationships>"
+                content = content.replace(end, relations.encode() + b'TargetMode="External"/>' + end)
+            if name == "word/document.xml":
+                content = content.replace(b"<w:body>", b"<w:body>" + field.encode())
+            office.writestr(name, content)
+        office.writestr("word/vbaProject.bin", b"Sub AutoOpen()")
+    return changed.getvalue()
 
 
 class Reader:
@@ -206,6 +236,7 @@ class Attack:
         self.results = result_sets(programs, folder / "results")
         self.samples["archive"] = self.archives()
         self.samples["hazard"] = self.samples["numbers"]
+        self.samples["template"] = [template()]
 
     def archives(self) -> list[bytes]:
         """Results that Python saves."""
@@ -224,17 +255,17 @@ class Attack:
         chance = random.Random(f"{family}:{number}")
         samples = self.samples[family]
         damage = Damage(chance, samples)
-        kinds = {"store": damage.store, "archive": damage.archive}
+        kinds = {"store": damage.store, "archive": damage.archive, "template": damage.office}
         content = chance.choice(samples)
         if len(content) > 20_000 and chance.random() < 0.95:
-            content = chance.choice([one for one in samples if len(one) <= 20_000])
+            content = chance.choice([one for one in samples if len(one) <= 20_000] or samples)
         return chance, kinds.get(family, damage.text)(content)
 
     def prepare(self, family: str, number: int) -> tuple[str, Path]:
         """Write the files of a case: the family to ask for, and the path."""
         if family == "results" or family in COMMANDS:
             return family, self.damaged_results(family, number)
-        suffix = {"archive": ".npz", "case": ".nml"}.get(family, "")
+        suffix = {"archive": ".npz", "case": ".nml", "template": ".docx"}.get(family, "")
         path = self.inputs / f"attacked{suffix}"
         path.write_bytes(self.damaged(family, number)[1])
         return family, path

@@ -13,13 +13,14 @@ import io
 import resource
 import sys
 import warnings
+import zipfile
 from pathlib import Path
 from typing import Any
 
-import dondolo.__main__
 import numpy as np
 
 import dondolo as dd
+import dondolo.__main__
 
 # Address space of the process: what is more than any small file needs [bytes]
 LARGEST = 6_000_000_000
@@ -73,6 +74,18 @@ def unsound(value: Any) -> str:
     return ""
 
 
+def read_template(path: str) -> str:
+    """Open a template of Word; what comes along must run nothing and name no other file."""
+    from dondolo.reporting.relazione.template import open_template
+
+    made = io.BytesIO()
+    open_template(path)[0].save(made)
+    with zipfile.ZipFile(made) as archive:
+        whole = b"".join(archive.read(name) for name in archive.namelist())
+    found = [word for word in (b'TargetMode="External"', b"vbaProject", b"macroEnabled", b"<!DOCTYPE") if word in whole]
+    return f"UNSOUND: {found}" if found else "read 1"
+
+
 def digest(stored: dd.results.Results) -> str:
     """A digest of all that makes one study another: walls, settings, and what came of the histories."""
     parts = [(wall.name, wall.height, wall.thickness) for wall in stored.population.walls]
@@ -112,6 +125,8 @@ def answer(family: str, path: str) -> str:
     try:
         if family in COMMANDS:
             return run_command(family, path)
+        if family == "template":
+            return read_template(path)
         if family == "archive":
             results = [dd.load(path)]
         elif family == "hazard":

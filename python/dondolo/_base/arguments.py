@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 import numpy as np
@@ -13,8 +14,13 @@ from dondolo.errors import Code, InputError, Problem
 
 FloatArray = NDArray[np.float64]
 _T = TypeVar("_T")
+# What packages of units write for numbers without one
+_NO_UNITS = ("", "1", "dimensionless", "(dimensionless)")
+# How m/s2 is written, and units in the names of columns
+_SI = re.compile(r"(m|met(er|re)s?)(/| / | per | ?\* ?| )\(?(s|sec|seconds?)(/s(ec)?| ?(\*\*|\^)? ?-?2|²|⁻²| squared)")
+_UNIT = re.compile(r"m?g|g's|[cm]?gals?|%g|counts?|cts|volts?|mv|.*[a-z]2?(/| per | )\(?s.*|[cm]?m|in|ft")
 # What Python or NumPy would turn into a number, and what is most likely a mistake
-_NO_NUMBERS = (str, bytes, bool, np.bool_)
+_NO_NUMBERS = (str, bytes, bool, np.bool_, np.timedelta64, np.datetime64)
 
 
 def argument_error(code: Code, variable: str, sentence: str) -> InputError:
@@ -22,8 +28,49 @@ def argument_error(code: Code, variable: str, sentence: str) -> InputError:
     return InputError(variable + sentence, errors=[Problem(variable + sentence, code, variable)])
 
 
+def _unit_of(value: Any) -> str:
+    """Unit of what a package of units has made (Astropy, Pint, unyt, netCDF4 ...), '' for plain numbers."""
+    # The entries of a table of pandas are attributes too: there the unit is one of the type of its numbers
+    holder = getattr(value, "dtype", None) if hasattr(value, "iloc") else value
+    unit = getattr(holder, "unit", None)
+    unit = getattr(holder, "units", None) if unit is None else unit
+    return "" if unit is None or str(unit) in _NO_UNITS else str(unit)
+
+
+def refuse_units(name: str, value: Any) -> None:
+    """Refuse a number, numbers or a list of numbers with a unit: packages of units strip it from some, unasked."""
+    several: Iterable[Any] = value if isinstance(value, (list, tuple)) else ()
+    if getattr(getattr(value, "dtype", None), "kind", "") == "O":
+        several = np.asarray(value, dtype=object).ravel()
+    for one in (value, *{type(one): one for one in several}.values()):
+        if unit := _unit_of(one):
+            raise _unit_error(name, unit)
+
+
+def refuse_other_accelerations(name: str, value: Any) -> None:
+    """Refuse samples that pandas or xarray say to be in other units than m/s2, in their attributes or their name."""
+    said = getattr(value, "attrs", None)
+    units = [str(said[key]) for key in ("units", "unit") if key in said] if isinstance(said, Mapping) else []
+    if isinstance(title := getattr(value, "name", None), str):
+        within = re.findall(r"[(\[]([^()\[\]]+)[)\]]", title)
+        units += [text for text in within if _UNIT.fullmatch(text.strip().lower())]
+    for unit in units:
+        if unit not in _NO_UNITS and not _SI.fullmatch(unit.strip().lower()):
+            raise _unit_error(name, unit)
+
+
+def _unit_error(name: str, unit: str) -> InputError:
+    return argument_error(
+        "not_a_number",
+        name,
+        f": has the unit {unit!r}: must be plain numbers in the unit that is documented, as"
+        " quantity.to_value(unit) of Astropy and quantity.m_as(unit) of Pint give them",
+    )
+
+
 def as_number(name: str, value: Any) -> float:
     """Turn what a user gives for a number into one."""
+    refuse_units(name, value)
     if isinstance(value, _NO_NUMBERS):
         raise argument_error("not_a_number", name, f" = {value!r}: must be a number")
     try:
@@ -56,6 +103,7 @@ def as_flag(name: str, value: Any) -> bool:
 
 def as_array(name: str, values: ArrayLike) -> FloatArray:
     """Turn what a user gives for a row of numbers into one."""
+    refuse_units(name, values)
     try:
         given = np.asarray(values)
         if given.dtype.kind not in "biufO" or isinstance(values, np.ma.MaskedArray):
@@ -141,17 +189,18 @@ def as_path(path: str | os.PathLike[str]) -> bytes:
         raise argument_error("wrong_type", "path", f" = {shortened(path)}: must be the path of a file") from None
 
 
-def as_generator(seed: Any) -> np.random.Generator:
+def as_generator(rng: Any) -> np.random.Generator:
     """Turn what a user gives for a seed into a generator of random numbers; None: a different one every time."""
     try:
-        return np.random.default_rng(seed)
+        return np.random.default_rng(rng)
     except (TypeError, ValueError):
-        sentence = f" = {seed!r}: must be an integer, at least 0, a Generator or None"
-        raise argument_error("not_an_integer", "seed", sentence) from None
+        sentence = f" = {rng!r}: must be an integer, at least 0, a Generator or None"
+        raise argument_error("not_an_integer", "rng", sentence) from None
 
 
 def as_levels(x: ArrayLike) -> FloatArray:
     """Turn what a user gives for levels of intensity into an array; its shape is kept."""
+    refuse_units("x", x)
     try:
         given = np.asarray(x)
         # NumPy would turn texts and flags into numbers
@@ -171,6 +220,7 @@ def as_levels(x: ArrayLike) -> FloatArray:
 
 def as_probabilities(name: str, p: ArrayLike) -> FloatArray:
     """Turn what a user gives for probabilities into an array; its shape is kept."""
+    refuse_units(name, p)
     try:
         values = np.asarray(p, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

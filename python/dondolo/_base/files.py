@@ -9,6 +9,7 @@ import re
 import stat
 import sys
 import zlib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -92,6 +93,20 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
         raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+
+
+def as_files(name: str, paths: Any) -> list[str]:
+    """One path or a sequence of them, each that of a file.
+
+    Raises
+    ------
+    InputError
+        Anything else.
+    """
+    several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    if not isinstance(several, Iterable):
+        raise argument_error("wrong_type", name, f" = {paths!r}: must be the path of a file, or a sequence of them")
+    return [os.fspath(as_file(name, one)) for one in several]
 
 
 def read_text(path: str | os.PathLike[str]) -> str:

@@ -1,6 +1,7 @@
 !> What the procedures that f2py reads share: checks of what crosses, lines of text, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_lines, only : lines_type
    use dondolo_base_memory, only : check_memory => check_room
@@ -44,16 +45,16 @@ contains
       !> Lines, separated by new_line
       character(len=*), intent(in) :: text
       !> Position: where the line begins, then where the next one does; 1 for the first
-      integer, intent(inout) :: at
+      integer(int64), intent(inout) :: at
       !> The line; blanks at its end are lost, and after the last line it is empty
       character(len=:), allocatable, intent(out) :: line
 
-      integer :: length
+      integer(int64) :: length
 
-      length = index(text(at:), new_line('a')) - 1
-      if (length < 0) length = len(text) - at + 1
+      length = index(text(at:), new_line('a'), kind=int64) - 1
+      if (length < 0) length = len(text, int64) - at + 1
       line = trim(text(at:at + length - 1))
-      at = min(at + length + 1, len(text) + 1)
+      at = min(at + length + 1, len(text, int64) + 1)
    end subroutine next_line
 
    !> All lines of a text
@@ -64,10 +65,10 @@ contains
       type(lines_type), intent(out) :: lines
 
       character(len=:), allocatable :: line
-      integer :: at
+      integer(int64) :: at
 
       at = 1
-      do while (at <= len(text))
+      do while (at <= len(text, int64))
          call next_line(text, at, line)
          call lines%add(line)
       end do
@@ -89,7 +90,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: text
-      integer :: k, at, number, next
+      integer(int64) :: at
+      integer :: k, number, next
 
       if (size(given) /= count(table%kind /= is_text) .or. any(given < 0) .or. sum(given) > size(numbers)) then
          call raise_input(error, 'values: must be '//to_text(count(table%kind /= is_text))//' numbers')

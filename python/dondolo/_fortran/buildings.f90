@@ -36,6 +36,7 @@ contains
 
       call set_building(building, numbers, given, error)
       if (.not. allocated(error)) then
+         call parcel%put('period', building%period)
          call parcel%put('damping', building%damping)
          call parcel%put('participation', building%participation)
          call parcel%put('participation_top', building%participation_top)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._base.arguments import FloatArray, as_array, as_number, refuse_units
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import flat_values, properties, receive, unpack_warnings
@@ -22,6 +22,7 @@ class BuildingData(NamedTuple):
     vibrates after a record [s].
     """
 
+    period: tuple[float, ...]
     damping: tuple[float, ...]
     participation: tuple[float, ...]
     participation_top: tuple[float, ...]
@@ -37,6 +38,7 @@ def building_values(values: Mapping[str, Any]) -> dict[str, Any]:
         if value is None:
             found[row.name] = None
         elif row.kind == "list":
+            refuse_units(row.name, value)
             found[row.name] = tuple(as_array(row.name, np.atleast_1d(value)).tolist()) or None
         else:
             number = as_number(row.name, value)
@@ -47,7 +49,7 @@ def building_values(values: Mapping[str, Any]) -> dict[str, Any]:
 def describe_building(values: Mapping[str, Any]) -> BuildingData:
     """Let Fortran check a building and work out its modes."""
     parcel = receive(_core.buildings.describe_building(*_flat(values)))
-    modes = {name: tuple(parcel[name].tolist()) for name in ("damping", "participation", "participation_top")}
+    modes = {name: tuple(parcel[name].tolist()) for name in ("period", "damping", "participation", "participation_top")}
     diaphragm = parcel["diaphragm_damping"], parcel["diaphragm_participation"]
     return BuildingData(**modes, diaphragm=diaphragm, free_vibration=parcel["free_vibration"])
 

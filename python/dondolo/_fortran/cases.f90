@@ -4,7 +4,6 @@ module cases
    use dondolo_base_error, only : error_type
    use dondolo_base_interrupt, only : stop_at
    use dondolo_base_json, only : json_type
-   use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
    use dondolo_case_echo, only : echo_type
    use dondolo_case_job_group, only : history_task, task_names, typology_task
@@ -15,13 +14,12 @@ module cases
    use dondolo_fragility_study, only : runs_of, study_type
    use dondolo_interface_handles, only : find_suite
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_population_reader, only : read_rows
    use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record_parcel, only : pack_records
    use dondolo_record_suite, only : suite_type
    use dondolo_results_parcel, only : pack_results
    use dondolo_store_parcel, only : pack_store
-   use dondolo_wall_parcel, only : pack_rows
+   use dondolo_wall_parcel, only : walls_parcel_type
    implicit none
    private
 
@@ -130,8 +128,8 @@ contains
       told(:2) = [done, total]
    end subroutine hear
 
-   !> A case: each of its values under its name, as Python's Case has it, the JSON of its groups (settings), its walls (pack_rows)
-   !> and its records (pack_records)
+   !> A case: each of its values under its name, as Python's Case has it, the JSON of its groups (settings), its walls
+   !> (walls_parcel_type) and its records (pack_records)
    subroutine pack_case(case, parcel, error, with_records)
       type(case_type), intent(inout) :: case
       !> Empty
@@ -141,7 +139,8 @@ contains
       !> Are its records packed? Yes if absent
       logical, intent(in), optional :: with_records
 
-      type(wall_row_type), allocatable :: rows(:)
+      type(walls_parcel_type) :: packed
+      type(wall_row_type) :: row
       type(echo_type) :: echoed
       type(json_type) :: json
       character(len=:), allocatable :: settings
@@ -149,15 +148,14 @@ contains
       logical :: packs
 
       if (case%job%task == typology_task) then
-         call read_rows(case%table, rows, error)
+         call packed%add_rows(case%table, error)
       else
-         allocate (rows(1))
-         rows(1)%wall = case%wall
-         rows(1)%group = ''
-         rows(1)%facade = ''
-         rows(1)%alternative = ''
+         row%wall = case%wall
+         row%group = ''
+         row%facade = ''
+         row%alternative = ''
+         call packed%add_row(row)
       end if
-      if (.not. allocated(error)) call check_room(error, walls=size(rows))
       if (.not. allocated(error)) then
          if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
          scale = 1
@@ -190,8 +188,7 @@ contains
          call json%close_object()
          call json%get(settings)
          call parcel%put('settings', settings)
-         call pack_check(case, parcel)
-         call pack_rows(rows, parcel)
+         call packed%put_rows(case%table%notes, parcel)
          packs = .true.
          if (present(with_records)) packs = with_records
          if (packs) call pack_records(case%suite%records, parcel, error)
@@ -212,25 +209,5 @@ contains
       end associate
       call send(parcel, error, sent)
    end subroutine result_tables
-
-   !> Put in the check of a case: soil, topography, ag, f0, tc_star, knowledge_factor, behaviour, reference_life and exceedance,
-   !> without one nothing
-   subroutine pack_check(case, parcel)
-      type(case_type), intent(in) :: case
-      type(parcel_type), intent(inout) :: parcel
-
-      if (.not. allocated(case%check)) return
-      associate (check => case%check)
-         call parcel%put('soil', check%soil)
-         call parcel%put('topography', check%topography)
-         call parcel%put('ag', real(check%ag, c_double))
-         call parcel%put('f0', real(check%f0, c_double))
-         call parcel%put('tc_star', real(check%tc_star, c_double))
-         call parcel%put('knowledge_factor', real(check%knowledge_factor, c_double))
-         call parcel%put('behaviour', real(check%behaviour, c_double))
-         call parcel%put('reference_life', real(check%reference_life, c_double))
-         call parcel%put('exceedance', real(check%exceedance, c_double))
-      end associate
-   end subroutine pack_check
 
 end module cases

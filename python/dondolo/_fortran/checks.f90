@@ -12,13 +12,16 @@ module checks
    use dondolo_case_report_rows, only : put_names
    use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_check_calculation, only : is_given, item_type, list_items
+   use dondolo_check_checked_wall, only : find_checked
    use dondolo_check_code_spectrum, only : elastic_spectrum_type
    use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
+   use dondolo_check_hazard_grid, only : grid_years
    use dondolo_check_input, only : check_input_type, check_properties, take_check
    use dondolo_check_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_check_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
    use dondolo_check_notes, only : make_check_notes
+   use dondolo_check_history_check, only : check_peaks => check_histories
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_check_strip_check, only : check_by_ntc
    use dondolo_curve_parcel, only : take_curves
    use dondolo_fragility, only : fragility_type
    use dondolo_interface_handles, only : find_walls
@@ -28,7 +31,7 @@ module checks
    implicit none
    private
 
-   public :: ntc_parameters, code_spectrum, check_ntc, check_table, check_histories, check_notes, calculation_items, &
+   public :: ntc_parameters, site_hazard, code_spectrum, check_ntc, check_table, check_histories, check_notes, calculation_items, &
       & capacity_curve
 
 contains
@@ -71,6 +74,44 @@ contains
       call send(parcel, error, sent)
    end subroutine ntc_parameters
 
+   !> Hazard of each limit state; of coordinates also the nodes of the grid and their values, a_g, F_0 and T_C* of the first return
+   !> period, of the second ..., of the first node, of the second ...
+   subroutine site_hazard(texts, numbers, n, given, q, sent)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: n, q, given(q)
+      real(c_double), intent(in) :: numbers(n)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(check_input_type) :: input
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call read_input(texts, numbers, given, input, error)
+      if (.not. allocated(error)) then
+         call parcel%put('ag', input%ag)
+         call parcel%put('f0', input%f0)
+         call parcel%put('tc_star', input%tc_star)
+         call parcel%put('reference_life', input%reference_life)
+         call parcel%put('exceedance', input%exceedance)
+         call parcel%put('return_periods', [(input%return_period(i), i=1, size(input%exceedance))])
+         if (allocated(input%place)) then
+            associate (place => input%place, mesh => input%place%mesh)
+               call parcel%put('latitude', place%latitude_ed50)
+               call parcel%put('longitude', place%longitude_ed50)
+               call parcel%put('use_coefficient', place%use_coefficient)
+               call parcel%put('ids', mesh%ids)
+               call parcel%put('latitudes', mesh%latitude)
+               call parcel%put('longitudes', mesh%longitude)
+               call parcel%put('distances', mesh%distances(place%longitude_ed50, place%latitude_ed50))
+               call parcel%put('grid_years', grid_years)
+               call parcel%put('values', reshape(mesh%values, [size(mesh%values)]))
+               call parcel%put('tabulated', reshape(place%tabulated, [size(place%tabulated)]))
+            end associate
+         end if
+      end if
+      call send(parcel, error, sent)
+   end subroutine site_hazard
+
    !> Ordinates [g] at n periods [s] of the spectrum of a code of acceleration a_g S [g], amplification F_0 and corners T_B, T_C
    !> and T_D [s]; with modes that of a floor: period [s], damping ratio, and participation times shape of each
    subroutine code_spectrum(pga, amplification, corners, damping, modes, mode_period, mode_damping, mode_participation, m, &
@@ -99,7 +140,6 @@ contains
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
       type(check_input_type) :: input
-      type(kinematic_type) :: kinematic
       type(sheet_type) :: sheet
       type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
@@ -109,9 +149,8 @@ contains
 
       call read_input(texts, numbers, given, input, error)
       if (.not. allocated(error)) call find_walls(walls, wall, error)
-      if (.not. allocated(error)) call new_kinematic(kinematic, wall(1), error)
+      if (.not. allocated(error)) call check_by_ntc(sheet, wall(1), input, error, searches=.true.)
       if (.not. allocated(error)) then
-         call check_by_ntc(sheet, kinematic, input)
          call put_sheet(table, sheet)
          call wall_warnings%look(wall(1))
          call wall_warnings%warn(warnings)
@@ -178,12 +217,15 @@ contains
       type(item_type), allocatable :: items(:)
       type(lines_type) :: names
       type(parcel_type) :: parcel
+      type(wall_type) :: checked
       type(error_type), allocatable :: error
+      logical :: is_moved
       integer :: i
 
       call find_walls(walls, found, error)
+      if (.not. allocated(error)) call find_checked(found(1), checked, is_moved, error)
       if (.not. allocated(error)) then
-         call list_items(found(1), items)
+         call list_items(checked, items)
          do i = 1, size(items)
             call names%add(trim(items(i)%name))
          end do
@@ -216,14 +258,17 @@ contains
       real(c_double), intent(out) :: displacements(n), accelerations(n)
       integer(c_int64_t), intent(out) :: failure(5)
       type(wall_type), pointer :: wall(:)
+      type(wall_type) :: checked
       type(kinematic_type) :: kinematic
       type(error_type), allocatable :: error
+      logical :: is_moved
       integer :: i
 
       displacements = 0
       accelerations = 0
       call find_walls(walls, wall, error)
-      if (.not. allocated(error)) call new_kinematic(kinematic, wall(1), error)
+      if (.not. allocated(error)) call find_checked(wall(1), checked, is_moved, error)
+      if (.not. allocated(error)) call new_kinematic(kinematic, checked, error)
       if (.not. allocated(error)) then
          do i = 1, n
             displacements(i) = kinematic%end_displacement*real(i - 1, c_double)/real(n - 1, c_double)

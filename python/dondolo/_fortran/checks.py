@@ -127,6 +127,65 @@ class CodeParameters(NamedTuple):
     corners: FloatArray
 
 
+class HazardMesh(NamedTuple):
+    """The place of a site in the grid of hazard (D.M. 14-1-2008, annex B, table 1), whose nodes are in ED50.
+
+    Attributes
+    ----------
+    latitude, longitude : float
+        The site in ED50 [deg].
+    use_coefficient : float
+        Coefficient C_U of the class of use.
+    ids : ndarray of int, shape (4,)
+        The nodes of the mesh: a node, and its neighbours in the east, the south-east and the south.
+    latitudes, longitudes : ndarray, shape (4,)
+        Of the nodes [deg].
+    distances : ndarray, shape (4,)
+        From the site [km].
+    grid_years : ndarray, shape (9,)
+        Return periods of the grid.
+    values : ndarray, shape (4, 9, 3)
+        a_g [g], F_0 and T_C* [s] of each node and return period.
+    tabulated : ndarray, shape (9, 3)
+        The same at the site, from the nodes.
+    """
+
+    latitude: float
+    longitude: float
+    use_coefficient: float
+    ids: NDArray[np.int32]
+    latitudes: FloatArray
+    longitudes: FloatArray
+    distances: FloatArray
+    grid_years: FloatArray
+    values: FloatArray
+    tabulated: FloatArray
+
+
+class SiteHazard(NamedTuple):
+    """Hazard of a site by NTC 2018.
+
+    Attributes
+    ----------
+    ag, f0, tc_star : tuple of float
+        a_g [g], F_0 and T_C* [s] of SLD, SLV and SLC; of one element where all limit states have the same.
+    reference_life : float
+        V_R [years]; 0 if unknown.
+    exceedance, return_periods : tuple of float
+        P_VR, and T_R [years] of the limit states; empty if unknown.
+    mesh : HazardMesh or None
+        Where these come from; None where they are given.
+    """
+
+    ag: tuple[float, ...]
+    f0: tuple[float, ...]
+    tc_star: tuple[float, ...]
+    reference_life: float
+    exceedance: tuple[float, ...]
+    return_periods: tuple[float, ...]
+    mesh: HazardMesh | None
+
+
 class Modes(NamedTuple):
     """Modes of a building at a floor: periods [s], damping ratios, and participation factors times shape."""
 
@@ -141,6 +200,21 @@ NO_MODES = Modes(np.empty(0), np.empty(0), np.empty(0))
 def site_input(values: Mapping[str, Any]) -> SiteInput:
     """Values of ``&check`` by their names; the code has one default."""
     return SiteInput(*flat_values(properties("check"), {"code": None, **values}))
+
+
+def site_hazard(site: SiteInput) -> SiteHazard:
+    """The hazard of a site, given or from its coordinates."""
+    parcel = receive(_core.checks.site_hazard(*site))
+    mesh = None
+    if "ids" in parcel.names:
+        values: dict[str, Any] = {name: np.copy(value)[()] for name, value in parcel.named(HazardMesh._fields).items()}
+        shape = (-1, len(values["grid_years"]), 3)
+        values |= {"values": values["values"].reshape(shape), "tabulated": values["tabulated"].reshape(shape)[0]}
+        mesh = HazardMesh(**values)
+    lists = {
+        name: tuple(parcel[name].tolist()) for name in SiteHazard._fields if name not in ("reference_life", "mesh")
+    }
+    return SiteHazard(**lists, reference_life=parcel["reference_life"], mesh=mesh)
 
 
 def ntc_parameters(site: SiteInput, state: str) -> CodeParameters:

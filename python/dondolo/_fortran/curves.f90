@@ -7,14 +7,15 @@ module curves
    use dondolo_base_threads, only : team_of
    use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : check_room
+   use dondolo_case_elastic_warnings, only : elastic_warnings_type
    use dondolo_case_result_warnings, only : warn_of_fit, warn_of_the_union => warn_of_union
    use dondolo_curve_parcel, only : put_curves, put_fits
    use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type, refuse_fractions
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_logit, only : fit_one_logit => fit_logit, logit_type
    use dondolo_fragility_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
-   use dondolo_fragility_stripes, only : stripes_type
    use dondolo_fragility_ratio, only : compare => compare_parameters
+   use dondolo_fragility_stripes, only : stripes_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_population, only : interpolated
@@ -223,14 +224,15 @@ contains
 
    !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; from histories of so many
    !> records, 0 for counts; status, its place among the names
-   subroutine warn_of_curve(walls, levels, m, largest_edp, records, theta, beta, bracket, status, sent)
+   subroutine warn_of_curve(walls, levels, m, largest_edp, edp_threshold, records, theta, beta, bracket, status, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: m, records, status
-      real(c_double), intent(in) :: levels(m), largest_edp, theta, beta, bracket(2)
+      real(c_double), intent(in) :: levels(m), largest_edp, edp_threshold, theta, beta, bracket(2)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: list(:), wall
       type(stripes_type) :: stripes
       type(fragility_type) :: fragility
+      type(elastic_warnings_type) :: elastic
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -250,6 +252,8 @@ contains
          allocate (stripes%response(1, 1))
          stripes%response%edp = largest_edp
          call warn_of_fit(wall, stripes, fragility, warnings)
+         if (walls /= 0) call elastic%look(wall)
+         call elastic%warn_of_thresholds([edp_threshold], warnings)
          call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)

@@ -160,6 +160,7 @@ def warnings_of_curve(
     beta: float,
     bracket: tuple[float, float],
     records: int = 0,
+    edp_threshold: float = 1.0,
 ) -> list[DondoloWarning]:
     """Warnings of the executable for the curve of one wall from so many records, or of counts without a wall."""
     code = constants().statuses.index(status) + 1
@@ -167,7 +168,15 @@ def warnings_of_curve(
     ends = np.minimum(bracket, np.finfo(np.float64).max)
     parcel = receive(
         _core.curves.warn_of_curve(
-            number, levels, largest_edp, records=records, theta=theta, beta=beta, bracket=ends, status=code
+            number,
+            levels,
+            largest_edp,
+            edp_threshold=edp_threshold,
+            records=records,
+            theta=theta,
+            beta=beta,
+            bracket=ends,
+            status=code,
         )
     )
     return unpack_warnings(parcel.lines)

@@ -3,13 +3,13 @@ module files
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_lock, only : lock_type
-   use dondolo_base_whole_file, only : whole_file_type
    use dondolo_boundary, only : split_lines
    use dondolo_case_columns, only : degrees_column, integer_column, text_column
    use dondolo_case_csv_table, only : csv_table_type
    use dondolo_case_result_files, only : published => published_run, result_files_type, run_suffix
    use dondolo_case_result_tables, only : table_suffixes
+   use dondolo_files_lock, only : lock_type
+   use dondolo_files_whole_file, only : whole_file_type
    use dondolo_held_files, only : end_with, find_file, find_set
    use dondolo_interface_handles, only : hold, release
    use dondolo_parcel, only : report
@@ -109,14 +109,14 @@ contains
    end subroutine begin_set
 
    !> Write a table of n rows and k columns: comments above it, a line each, names of its columns, kinds of these as
-   !> dondolo_case_columns has them, numbers of those that are no texts (NaN: an empty cell), and texts of the others, column after
-   !> column. bytes and checksum are those of the file of the run
-   subroutine write_table(handle, suffix, comments, names, kinds, k, numbers, n, c, texts, is_safe, bytes, checksum, failure)
+   !> dondolo_case_columns has them, numbers (NaN: an empty cell), of texts which line of the texts that differ it is. bytes and
+   !> checksum are those of the file of the run
+   subroutine write_table(handle, suffix, comments, names, kinds, k, numbers, n, texts, is_safe, bytes, checksum, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: handle
       character(len=*), intent(in) :: suffix, comments, names, texts
-      integer(c_int), intent(in) :: k, n, c, is_safe, kinds(k)
-      real(c_double), intent(in) :: numbers(n, c)
+      integer(c_int), intent(in) :: k, n, is_safe, kinds(k)
+      real(c_double), intent(in) :: numbers(n, k)
       integer(c_int64_t), intent(out) :: bytes
       character(len=8), intent(out) :: checksum
       integer(c_int64_t), intent(out) :: failure(5)
@@ -159,33 +159,25 @@ contains
       type(lines_type), intent(in) :: names
       !> Kinds of the columns
       integer(c_int), intent(in) :: kinds(:)
-      !> Numbers (rows, columns of numbers)
+      !> Numbers (rows, columns)
       real(c_double), intent(in) :: numbers(:, :)
-      !> Texts, column after column
+      !> Texts that differ
       type(lines_type), intent(in) :: texts
 
-      integer :: i, number, text
+      integer :: i
 
-      number = 0
-      text = 0
       do i = 1, size(kinds)
-         associate (name => names%line(i)%text)
+         associate (name => names%line(i)%text, value => numbers(row, i))
             if (kinds(i) == text_column) then
-               call table%put(name, texts%line(text*size(numbers, 1) + row)%text)
-               text = text + 1
-               cycle
+               call table%put(name, texts%line(nint(value))%text)
+            else if (kinds(i) == integer_column) then
+               if (value == value) call table%put(name, nint(value))
+               if (value /= value) call table%put(name, 0, .false.)
+            else if (kinds(i) == degrees_column) then
+               call table%put_degrees(name, value, value == value)
+            else
+               call table%put(name, value, value == value)
             end if
-            number = number + 1
-            associate (value => numbers(row, number))
-               if (kinds(i) == integer_column) then
-                  if (value == value) call table%put(name, nint(value))
-                  if (value /= value) call table%put(name, 0, .false.)
-               else if (kinds(i) == degrees_column) then
-                  call table%put_degrees(name, value, value == value)
-               else
-                  call table%put(name, value, value == value)
-               end if
-            end associate
          end associate
       end do
       call table%end_row()

@@ -19,7 +19,7 @@ from dondolo.errors import DondoloError, InputError
 #: What the names of the tables of a set end with, of any task
 TABLES = tuple(receive(_core.cases.result_tables()).lines)
 RUN_FILE = "_run.json"
-#: Kinds of columns, as src/dondolo/case/results/columns.f90 has them
+#: Kinds of columns, as src/study/case/results/columns.f90 has them
 TEXT, REAL, INTEGER, DEGREES = range(4)
 
 
@@ -136,18 +136,19 @@ class ResultSet:
         self, name: str, columns: Mapping[str, Column], comments: Sequence[str] = (), *, spreadsheet_safe: bool = False
     ) -> None:
         """Write a table under its name before it is published; `name` is what its name ends with."""
-        numbers = [column.values for column in columns.values() if column.kind != TEXT]
-        texts = [text for column in columns.values() if column.kind == TEXT for text in column.values]
-        rows = len(next(iter(columns.values())).values)
+        words: dict[str, int] = {}
+        numbers = [
+            [words.setdefault(text, len(words) + 1) for text in column.values] if column.kind == TEXT else column.values
+            for column in columns.values()
+        ]
         size, checksum, failure = _core.files.write_table(
             self._handle,
             name.encode(),
             _lines(comments),
             _lines(columns),
             np.array([column.kind for column in columns.values()], dtype=np.int32),
-            # f2py takes no empty arrays
-            np.array(numbers or [np.zeros(rows)]).T,
-            _lines(texts),
+            np.array(numbers, dtype=np.float64).T,
+            _lines(words),
             int(spreadsheet_safe),
         )
         check(failure)

@@ -2,9 +2,9 @@
 module dondolo_held_files
    use, intrinsic :: iso_c_binding, only : c_int64_t
    use dondolo_base_error, only : error_type
-   use dondolo_base_lock, only : lock_type
-   use dondolo_base_whole_file, only : whole_file_type
    use dondolo_case_result_files, only : result_files_type
+   use dondolo_files_lock, only : lock_type
+   use dondolo_files_whole_file, only : whole_file_type
    use dondolo_interface_handles, only : content_of, refuse_handle
    implicit none
    private

@@ -224,7 +224,7 @@ contains
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) then
          call wall_warnings%look(wall(1))
-         call wall_warnings%warn(warnings)
+         call wall_warnings%warn(warnings, records%records(number:number))
          call warn_of_records(records, wall(1)%gravity, warnings, number, moves == 1)
          call warn_of_fall(records%records(number), scale, wall(1)%gravity, warnings)
          call warnings%put_objects(parcel%lines)

@@ -13,14 +13,13 @@ module library
    use dondolo_base_limits, only : longest_name
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : name_problem, shown
-   use dondolo_base_probability, only : probability_text
    use dondolo_base_property, only : describe_property, property_type
-   use dondolo_base_references, only : list_bibtex, list_keys
    use dondolo_base_text, only : join
    use dondolo_base_threads, only : threads_here => available_threads
-   use dondolo_base_version, only : build_commit, dondolo_version_text
    use dondolo_case_property_tables, only : property_table, table_names
-   use dondolo_population_occurrence, only : sum_tolerance
+   use dondolo_files_probability, only : probability_text
+   use dondolo_files_references, only : list_bibtex, list_keys
+   use dondolo_files_version, only : build_commit, dondolo_version_text
    use dondolo_fragility, only : error_names, least_ratio, fit_status_names, statuses_with_curve
    use dondolo_fragility_clustered, only : fewest_clusters
    use dondolo_fragility_study, only : same_level
@@ -30,7 +29,9 @@ module library
    use dondolo_motion_work, only : work_names
    use dondolo_parcel, only : parcel_type, report, send, take, take_next => take_series
    use dondolo_population_distribution, only : least_share
-   use dondolo_wall, only : standard_gravity
+   use dondolo_population_occurrence, only : sum_tolerance
+   use dondolo_population_wall_row, only : note_prefixes
+   use dondolo_wall_gravity, only : standard_gravity
    implicit none
    private
 
@@ -61,6 +62,7 @@ contains
       call put_words(parcel, 'statuses', fit_status_names)
       call put_words(parcel, 'fitted', fit_status_names(:statuses_with_curve))
       call put_words(parcel, 'errors', error_names)
+      call put_words(parcel, 'notes', note_prefixes)
       call put_words(parcel, 'work', work_names)
       call send(parcel, error, sent)
    end subroutine constants
@@ -106,7 +108,7 @@ contains
       text = probability_text(value)
    end subroutine shown_probability
 
-   !> BibTeX of dondolo and of the sources of what was used, said in words that commas separate (dondolo_base_references)
+   !> BibTeX of dondolo and of the sources of what was used, said in words that commas separate (dondolo_files_references)
    subroutine cite(words, sent)
       character(len=*), intent(in) :: words
       integer(c_int64_t), intent(out) :: sent(5)
@@ -203,7 +205,7 @@ contains
    subroutine take_parcel(handle, m, n, k, integers, reals, text)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: handle
-      integer(c_int), intent(in) :: m, n, k
+      integer(c_int64_t), intent(in) :: m, n, k
       ! Bytes, four in a number
       integer(c_int), intent(out) :: integers(m), text((k + 3)/4)
       real(c_double), intent(out) :: reals(n)

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._fortran import _core
-from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError, Problem
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError, Problem, visible
 
 _PACKAGE = str(Path(__file__).parents[1]) + os.sep
 # Each line is one object without blanks around it; json.loads would look for blanks first.
@@ -53,8 +53,9 @@ class Constants(NamedTuple):
     sum_tolerance : float
         By how much a sum of probabilities may miss 1.
     version, commit : str
-    statuses, fitted, errors, work : tuple of str
-        Statuses of fits, those that have a curve, kinds of standard errors, and counts of work.
+    statuses, fitted, errors, work, notes : tuple of str
+        Statuses of fits, those that have a curve, kinds of standard errors, counts of work, and what the names of
+        columns begin with that are kept with walls as they stand.
     """
 
     longest_name: int
@@ -73,6 +74,7 @@ class Constants(NamedTuple):
     fitted: tuple[str, ...]
     errors: tuple[str, ...]
     work: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 class Property(NamedTuple):
@@ -102,6 +104,8 @@ class Property(NamedTuple):
         One sentence.
     absent : float or None
         What stands in the place of an optional number that is not given beside the others of its kind, if anything.
+    not_with : tuple of str
+        Properties of the same group beside which it cannot be given.
     """
 
     name: str
@@ -117,6 +121,7 @@ class Property(NamedTuple):
     column: str
     meaning: str
     absent: float | None
+    not_with: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +166,7 @@ _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     parcel = receive(_core.library.constants())
-    words: dict[str, Any] = {name: tuple(parcel[name]) for name in ("statuses", "fitted", "errors", "work")}
+    words: dict[str, Any] = {name: tuple(parcel[name]) for name in ("statuses", "fitted", "errors", "work", "notes")}
     return Constants(**parcel.named(Constants._fields) | words)
 
 
@@ -173,7 +178,8 @@ def properties(group: str) -> tuple[Property, ...]:
 
 def _property(*entries: str) -> Property:
     """A property out of its line."""
-    name, kind, unit, default, smallest, largest, bounds, choices, owners, instead, column, meaning, absent = entries
+    name, kind, unit, default, smallest, largest, bounds, choices, owners, instead, column, meaning = entries[:12]
+    absent, excluded = entries[12:]
     return Property(
         name,
         kind,
@@ -188,6 +194,7 @@ def _property(*entries: str) -> Property:
         column,
         meaning,
         None if float(absent) == sys.float_info.max else float(absent),
+        tuple(excluded.split(", ")) if excluded else (),
     )
 
 
@@ -222,7 +229,7 @@ def shown_probability(value: float) -> str:
 
 
 def bibtex(used: Iterable[str]) -> list[str]:
-    """Lines of BibTeX of dondolo and of the sources of what was used, in the words of dondolo_base_references."""
+    """Lines of BibTeX of dondolo and of the sources of what was used, in the words of dondolo_files_references."""
     return receive(_core.library.cite(",".join(used).encode())).lines
 
 
@@ -288,6 +295,34 @@ def as_text(name: str, value: Any) -> bytes:
     if not value.isprintable() or len(text) > constants().longest_name:
         check(_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))
     return text
+
+
+def check_characters(name: str, text: str) -> None:
+    """Refuse what no document can have, anywhere in a text of several lines: control characters and the like."""
+    if text.isprintable():
+        return
+    for place, character in enumerate(text):
+        if character.isprintable() or character in "\t\n\r":
+            continue
+        try:
+            as_text(name, character)
+        except InputError:
+            before = visible(text[max(0, place - 20) : place])
+            sentence = (
+                f"{name}: has {visible(character)} after '{before}': must be without control characters and marks of "
+                "direction"
+            )
+            raise InputError(sentence, errors=[Problem(sentence, "not_a_string", name)]) from None
+
+
+def within_name(text: str) -> str:
+    """A text made of names: where it has more bytes than a name may have, its middle is left out."""
+    content, most = text.encode(), constants().longest_name
+    if len(content) <= most:
+        return text
+    # Room for the dots between the halves
+    half = most // 2 - 3
+    return f"{content[:half].decode(errors='ignore')} ... {content[-half:].decode(errors='ignore')}"
 
 
 def text_lines(texts: Iterable[str]) -> bytes:

@@ -2,8 +2,8 @@
 module origins
    use, intrinsic :: iso_c_binding, only : c_int64_t
    use dondolo_base_error, only : error_type
-   use dondolo_base_origin, only : check => check_replaced, mark_of => derived_mark
    use dondolo_case_replaced, only : describe_replaced, list_outdated
+   use dondolo_files_origin, only : check => check_replaced, mark_of => derived_mark
    use dondolo_parcel, only : parcel_type, report, send
    implicit none
    private
@@ -12,7 +12,7 @@ module origins
 
 contains
 
-   !> May a file be replaced by one of a kind, a word of dondolo_base_origin?
+   !> May a file be replaced by one of a kind, a word of dondolo_files_origin?
    subroutine check_replaced(path, kind, failure)
       character(len=*), intent(in) :: path, kind
       integer(c_int64_t), intent(out) :: failure(5)

@@ -35,7 +35,7 @@ module dondolo_parcel
       !> How many of them have been put in, and taken
       integer, private :: given = 0, taken = 0
       !> How many lines there are, those inside of blocks too
-      integer, private :: line_count = 0
+      integer(c_int64_t), private :: line_count = 0
    contains
       procedure, private :: add_integers
       procedure, private :: add_reals
@@ -188,7 +188,7 @@ contains
       !> Its name and kind
       character(len=*), intent(in) :: what, kind
       !> How many of its kind stand before it
-      integer, intent(in) :: before
+      integer(c_int64_t), intent(in) :: before
       !> Its shape in Fortran's order
       integer, intent(in) :: shape(:)
 
@@ -203,19 +203,19 @@ contains
    end subroutine name
 
    !> How many integers there are
-   pure integer function size_of(integers)
+   pure integer(c_int64_t) function size_of(integers)
       integer(c_int), allocatable, intent(in) :: integers(:)
 
       size_of = 0
-      if (allocated(integers)) size_of = size(integers)
+      if (allocated(integers)) size_of = size(integers, kind=c_int64_t)
    end function size_of
 
    !> How many reals there are
-   pure integer function number_of(reals)
+   pure integer(c_int64_t) function number_of(reals)
       real(c_double), allocatable, intent(in) :: reals(:)
 
       number_of = 0
-      if (allocated(reals)) number_of = size(reals)
+      if (allocated(reals)) number_of = size(reals, kind=c_int64_t)
    end function number_of
 
    !> Make room for series, all of a parcel at once
@@ -321,19 +321,21 @@ contains
       type(parcel_type), pointer :: content
       type(c_ptr) :: address
       character(len=:), allocatable :: characters
-      integer :: i, at
+      integer(c_int64_t) :: at, length
+      integer :: i
 
       if (handle == 0) return
       address = transfer(handle, address)
       call c_f_pointer(address, content)
       integers = content%integers
       reals = content%reals
-      allocate (character(len=size(text)*(storage_size(text)/storage_size('a'))) :: characters)
+      allocate (character(len=size(text, kind=c_int64_t)*(storage_size(text)/storage_size('a'))) :: characters)
       at = 0
       do i = 1, content%lines%count
          associate (line => content%lines%line(i))
-            characters(at + 1:at + len(line%text)) = line%text
-            at = at + len(line%text) + 1
+            length = len(line%text, c_int64_t)
+            characters(at + 1:at + length) = line%text
+            at = at + length + 1
             characters(at:at) = new_line('a')
          end associate
       end do
@@ -370,7 +372,7 @@ contains
 
       length = lines%count
       do i = 1, lines%count
-         length = length + len(lines%line(i)%text)
+         length = length + len(lines%line(i)%text, c_int64_t)
       end do
    end function length_of
 

@@ -1,6 +1,7 @@
 !> Curves of populations.
 module populations
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
    use dondolo_base_warning, only : warnings_type
@@ -99,17 +100,18 @@ contains
       type(row_result_type) :: row
       character(len=:), allocatable :: bytes
       real(c_double) :: change(2, maxval(clusters))
-      integer :: i, at, length
+      integer(int64) :: at, length
+      integer :: i
 
       call curves%begin(population, clusters, runs, are_alternatives, .true., error)
-      allocate (character(len=4*size(bits)) :: bytes)
+      allocate (character(len=4*size(bits, kind=int64)) :: bytes)
       bytes = transfer(bits, bytes)
       at = 0
       do i = 1, size(sizes)
          if (allocated(error)) return
          row%row = i
          row%histories = sizes(i)
-         length = int(bytes_of_flags(shape, row%histories))
+         length = bytes_of_flags(shape, row%histories)
          if (allocated(row%flags)) deallocate (row%flags)
          allocate (row%flags(row%histories, shape%levels, shape%states))
          call unpack_flags(bytes(at + 1:at + length), row%flags)
@@ -133,7 +135,7 @@ contains
       call parcel%put('wall_fraction', [(population%fraction(columns(i), 1), i=1, population%walls)], [m, population%walls])
       call parcel%put('wall_histories', [(real(population%histories_of(columns(i)), c_double), i=1, population%walls)], &
          & [m, population%walls])
-      call parcel%put('wall_saturation', [(population%occurrence(columns(i)), i=1, population%walls)])
+      call parcel%put('wall_upper_asymptote', [(population%occurrence(columns(i)), i=1, population%walls)])
    end subroutine put_fractions
 
    !> Put curves of the population in
@@ -158,7 +160,7 @@ contains
       call parcel%put('beta_walls', groups%beta_walls)
       call parcel%put('beta_records', groups%beta_records)
       call parcel%put('fitted', groups%fitted)
-      call parcel%put('saturation', groups%saturation)
+      call parcel%put('upper_asymptote', groups%upper_asymptote)
       call parcel%put('histories', [(groups(i)%histories, i=1, n)], [m, n])
       call parcel%put('mean_fraction', [(groups(i)%mean_fraction, i=1, n)], [m, n])
       call parcel%put('mean_curve', [(groups(i)%mean_curve, i=1, n)], [m, n])
@@ -205,7 +207,7 @@ contains
          end do
          call parcel%put('mean_group', group)
          call parcel%put('mean_histories', [(unions%mean(i)%histories, i=1, n)], [m, n])
-         call parcel%put('mean_saturation', [(unions%mean(i)%saturation, i=1, n)])
+         call parcel%put('mean_upper_asymptote', [(unions%mean(i)%upper_asymptote, i=1, n)])
          call parcel%put('mean_union_fraction', [(unions%mean(i)%fraction(:, 1), i=1, n)], [m, n])
          call put_curves(parcel, 'mean_', [(unions%mean(i)%curve(1), i=1, n)])
          call put_changes(parcel, 'mean_', curves%errors%mean(:, 1))

@@ -2,6 +2,7 @@
 !> samples of those vertical components that there are.
 module dondolo_record_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
    use dondolo_boundary, only : check_room, next_line
@@ -33,7 +34,8 @@ contains
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, from, from_vertical, at
+      integer(int64) :: at
+      integer :: i, from, from_vertical
 
       call check_room(error, records=size(lengths), samples=real(size(acceleration), c_double) &
          & + real(size(vertical), c_double))
@@ -53,16 +55,18 @@ contains
       end do
    end subroutine set_records
 
-   !> Give records what their clusters follow from
+   !> Give records what their clusters, their directions and warnings of them follow from
    subroutine set_labels(records, labels)
       !> The records
       type(record_type), intent(inout) :: records(:)
-      !> Event, station and date of each, three lines, empty where they are not known
+      !> Event, station, date, format and motion of each, five lines, empty where they are not known, then the key that shows the
+      !> direction and its value
       character(len=*), intent(in) :: labels
 
-      character(len=7), parameter :: keys(3) = [character(len=7) :: 'event', 'station', 'date']
-      character(len=:), allocatable :: label
-      integer :: i, k, at
+      character(len=7), parameter :: keys(5) = [character(len=7) :: 'event', 'station', 'date', 'format', 'motion']
+      character(len=:), allocatable :: key, label
+      integer(int64) :: at
+      integer :: i, k
 
       at = 1
       do i = 1, size(records)
@@ -70,6 +74,9 @@ contains
             call next_line(labels, at, label)
             call records(i)%metadata%set(trim(keys(k)), label)
          end do
+         call next_line(labels, at, key)
+         call next_line(labels, at, label)
+         call records(i)%metadata%set(key, label)
       end do
    end subroutine set_labels
 

@@ -1,38 +1,42 @@
 !> Records: uploading, measuring, reading and making them.
 module records
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_base_csv_row, only : cell_type
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_number_table, only : read_table => read_number_table
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads
    use dondolo_boundary, only : check_room, next_line
+   use dondolo_files_csv_row, only : cell_type
+   use dondolo_files_number_table, only : read_table => read_number_table
    use dondolo_fragility_scaling, only : new_scaling, scaling_type
    use dondolo_interface_handles, only : find_suite, hold, records_type
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_catalogue, only : read_catalogue, record_rows_type
-   use dondolo_record_clusters, only : cluster_label
    use dondolo_record_dead_channel, only : check_motion, check_vertical_motion
-   use dondolo_record_earthquake, only : find_date, find_earthquake
    use dondolo_record_energy_measures, only : times_of => significant_times
    use dondolo_record_ground_motion, only : velocity_of => ground_velocity
    use dondolo_record_intensity, only : measure_type, new_measure
    use dondolo_record_metadata, only : metadata_type
    use dondolo_record_parcel, only : pack_records, set_labels, set_records
-   use dondolo_record_reader, only : read_all => read_records, read_record
-   use dondolo_record_reading_notes, only : list_reading_notes
    use dondolo_record_response_spectrum, only : largest_period, smallest_period, spectral_displacement
-   use dondolo_record_suite, only : make_suite => new_suite, suite_type
+   use dondolo_record_rows, only : record_rows_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_record_synthetic, only : make_record => synthetic_record
-   use dondolo_record_table, only : record_table
+   use dondolo_records_catalogue, only : read_catalogue
+   use dondolo_records_clusters, only : cluster_label, gather_suite
+   use dondolo_records_days, only : stated_date
+   use dondolo_records_direction, only : find_direction, vertical
+   use dondolo_records_earthquake, only : find_date, find_difference, find_earthquake
+   use dondolo_records_reading_notes, only : list_reading_notes
+   use dondolo_records_record_reader, only : read_all => read_records, read_record
+   use dondolo_records_record_table, only : record_table
    implicit none
    private
 
    public :: new_suite, measure_suite, check_record, join_vertical, describe_measure, intensities, spectrum, ground_velocity, &
-      & significant_times, check_motions, labels_of, read_records, read_number_table, catalogue_table, synthetic_record
+      & significant_times, check_motions, labels_of, component_of, difference_of, cluster_labels, read_records, &
+      & read_number_table, catalogue_table, synthetic_record
 
 contains
 
@@ -54,7 +58,7 @@ contains
       if (.not. allocated(error)) then
          call set_labels(records, labels)
          allocate (held)
-         call make_suite(held%suite, records, threads)
+         call gather_suite(held%suite, records, threads)
          content => held
          call hold(content, handle)
       end if
@@ -137,8 +141,8 @@ contains
       call report(error, failure)
    end subroutine check_motions
 
-   !> What metadata say of the earthquake of a record: its name or origin, the label of the cluster, and the date, each empty if
-   !> it is not known
+   !> What metadata say of the earthquake of a record: its name or origin, the label of the cluster, and the date, as it is stated
+   !> where it is none of the calendar, each empty if it is not known
    subroutine labels_of(metadata, n, sent)
       !> Keys and values in turn, one a line, and how many pairs
       character(len=*), intent(in) :: metadata
@@ -147,23 +151,91 @@ contains
       type(metadata_type) :: known
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: key, label
-      integer :: i, at
+      character(len=:), allocatable :: label
 
-      at = 1
-      do i = 1, n
-         call next_line(metadata, at, key)
-         call next_line(metadata, at, label)
-         call known%set(key, label)
-      end do
+      call take_metadata(metadata, n, known)
       call find_earthquake(known, label)
       call parcel%put('earthquake', label)
       call cluster_label(known, label)
       call parcel%put('cluster', label)
       call find_date(known, label)
+      if (len(label) == 0) call stated_date(known, label)
       call parcel%put('date', label)
       call send(parcel, error, sent)
    end subroutine labels_of
+
+   !> Which way the component of a record points: whether it is vertical, and the key and the value that show it, '' if nothing does
+   subroutine component_of(metadata, n, name, sent)
+      !> As of labels_of
+      character(len=*), intent(in) :: metadata
+      integer(c_int), intent(in) :: n
+      !> Name of the record, or of its file
+      character(len=*), intent(in) :: name
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(metadata_type) :: known
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: key, label
+      integer :: direction
+
+      call take_metadata(metadata, n, known)
+      call find_direction(known, name, direction, key, label)
+      call parcel%put('key', key)
+      call parcel%put('text', label)
+      call parcel%put('is_vertical', merge(1, 0, direction == vertical))
+      call send(parcel, error, sent)
+   end subroutine component_of
+
+   !> What two records differ in that cannot be components of one motion: a key, '' for none, and the two values
+   subroutine difference_of(first, n, second, k, sent)
+      !> Metadata of each as of labels_of
+      character(len=*), intent(in) :: first, second
+      integer(c_int), intent(in) :: n, k
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(metadata_type) :: known(2)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: key, one, other
+
+      call take_metadata(first, n, known(1))
+      call take_metadata(second, k, known(2))
+      call find_difference(known(1), known(2), key, one, other)
+      call parcel%put('key', key)
+      call parcel%put('one', one)
+      call parcel%put('other', other)
+      call send(parcel, error, sent)
+   end subroutine difference_of
+
+   !> Take metadata from lines
+   subroutine take_metadata(lines, n, metadata)
+      !> Keys and values in turn, one a line, and how many pairs
+      character(len=*), intent(in) :: lines
+      integer(c_int), intent(in) :: n
+      type(metadata_type), intent(out) :: metadata
+      character(len=:), allocatable :: key, label
+      integer(c_int64_t) :: at
+      integer :: i
+
+      at = 1
+      do i = 1, n
+         call next_line(lines, at, key)
+         call next_line(lines, at, label)
+         call metadata%set(key, label)
+      end do
+   end subroutine take_metadata
+
+   !> Labels of the clusters of the records of a suite, as lines
+   subroutine cluster_labels(suite, sent)
+      integer(c_int64_t), intent(in) :: suite
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(suite_type), pointer :: records
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_suite(suite, records, error)
+      if (.not. allocated(error)) parcel%lines = records%labels
+      call send(parcel, error, sent)
+   end subroutine cluster_labels
 
    !> An intensity measure, with of_record = 1 one of those that records have of themselves, durations too; else of those that
    !> records can be scaled by
@@ -308,8 +380,9 @@ contains
    !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
    !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Beside what pack_records has there
    !> are of a catalogue with levels row_record, row_level and row_factor of each row, 0 where it has none, and notes
-   subroutine read_records(path, what, dt_given, dt, units, channel, layout, vertical, vertical_factor, sent)
-      character(len=*), intent(in) :: path, units, channel, layout
+   subroutine read_records(path, what, dt_given, dt, units, channel, layout, columns, vertical, vertical_factor, sent)
+      !f2py threadsafe
+      character(len=*), intent(in) :: path, units, channel, layout, columns
       integer(c_int), intent(in) :: what, dt_given, vertical
       real(c_double), intent(in) :: dt, vertical_factor
       integer(c_int64_t), intent(out) :: sent(5)
@@ -328,11 +401,11 @@ contains
       select case (what)
       case (0)
          allocate (records(1))
-         call read_record(path, records(1), error, step, units, channel, layout)
+         call read_record(path, records(1), error, step, units, channel, layout, columns)
       case (1)
          call read_catalogue(path, records, error, note, rows, factor)
       case default
-         call read_all(path, records, error, step, units, layout)
+         call read_all(path, records, error, step, units, layout, columns)
       end select
       if (.not. allocated(error)) then
          call list_reading_notes(records, notes)

@@ -64,6 +64,7 @@ def records_of_file(
     units: str | None = None,
     channel: str | None = None,
     layout: str | None = None,
+    columns: str | None = None,
     vertical_factor: float | None = None,
 ) -> tuple[list[RecordData], tuple[NDArray[np.int32], FloatArray, FloatArray]]:
     """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2).
@@ -74,7 +75,7 @@ def records_of_file(
     step = 0.0 if dt is None else as_number("dt", dt)
     texts = (
         b"" if text is None else as_text(name, text)
-        for name, text in (("units", units), ("channel", channel), ("format", layout))
+        for name, text in (("units", units), ("channel", channel), ("format", layout), ("columns", columns))
     )
     vertical = (0, 0.0) if vertical_factor is None else (1, vertical_factor)
     parcel = receive(_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts, *vertical))

@@ -4,6 +4,7 @@ module dondolo_results_parcel
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
    use dondolo_case_columns, only : columns_type, text_column
@@ -44,7 +45,7 @@ contains
       end do
       call check_room(error, reals=sum([(real(tables(k)%rows, c_double)*tables(k)%names%count, k=1, size(tables))]))
       if (allocated(error)) return
-      call parcel%expect_series(sum([(number_columns(tables(k)), k=1, size(tables))]))
+      call parcel%expect_series(sum([(size(tables(k)%columns), k=1, size(tables))]))
       do k = 1, size(tables)
          call names%add(trim(kinds(k)%suffix))
          call pack_table(tables(k), trim(kinds(k)%suffix), parcel)
@@ -54,16 +55,9 @@ contains
       call parcel%put_block('run', text, 1 + count([(text(i:i) == new_line('a'), i=1, len(text))]))
    end subroutine pack_results
 
-   !> How many columns of a table are numbers
-   pure integer function number_columns(table)
-      type(columns_type), intent(in) :: table
-
-      number_columns = count(table%columns%kind /= text_column)
-   end function number_columns
-
    !> A table under a name, its columns moved away: their names; NAME:kinds, what each holds (text_column, real_column,
-   !> integer_column, degrees_column); NAME:rows, how many there are; NAME:COLUMN, texts; and series of numbers, NaN where there
-   !> is none
+   !> integer_column, degrees_column); NAME:rows, how many there are; NAME:NUMBER, texts that differ; and of each column a series
+   !> of numbers, NaN where there is none, of texts which one it is, from 1
    subroutine pack_table(table, name, parcel)
       type(columns_type), intent(inout) :: table
       !> Without blanks
@@ -81,13 +75,12 @@ contains
          associate (column => table%columns(i))
             if (column%kind == text_column) then
                ! Each of its texts is ended, and the parcel ends the last
-               call parcel%put_block(name//':'//table%names%line(i)%text, column%text(:column%length - 1), table%rows)
+               call parcel%put_block(name//':'//to_text(i), column%text(:column%length - 1), column%words)
                deallocate (column%text)
-            else
-               values = column%number(:table%rows)
-               deallocate (column%number)
-               call parcel%move_series(values)
             end if
+            values = column%number(:table%rows)
+            deallocate (column%number)
+            call parcel%move_series(values)
          end associate
       end do
    end subroutine pack_table
@@ -105,7 +98,7 @@ contains
 
       if (.not. allocated(error) .and. allocated(table%error)) call move_alloc(table%error, error)
       if (.not. allocated(error)) then
-         call parcel%expect_series(number_columns(table))
+         call parcel%expect_series(size(table%columns))
          call pack_table(table, 'table', parcel)
          if (present(warnings)) call parcel%put('warnings', warnings)
       end if

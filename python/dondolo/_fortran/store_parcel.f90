@@ -1,7 +1,9 @@
 !> What a store holds of a population, on its way to Python.
 module dondolo_store_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_error, only : error_type
+   use dondolo_base_memory, only : raise_shortage
    use dondolo_boundary, only : check_room
    use dondolo_fragility_tie_tallies, only : tie_tally_type
    use dondolo_parcel, only : parcel_type
@@ -17,7 +19,7 @@ contains
    !> What a store has of its rows: histories of a stripe of each row, how many of them have reached each state (levels, states,
    !> rows), and ties of each row, 0 for rows that are not there; then of the rows that are there tie_counts, how many histories
    !> make each tie yield and how many break it (2, ties of all levels of all rows), elongations, mean and largest plastic ones
-   !> (the same) [m], and the flags, eight a byte, each row from a byte of its own on, and flag_bytes, their number
+   !> (the same) [m], and the flags, eight a byte, each row from a byte of its own on, and flag_bytes, their number, a real
    subroutine pack_store(store, parcel, error)
       type(store_type), intent(inout) :: store
       !> Empty
@@ -29,7 +31,8 @@ contains
       integer(c_int), allocatable :: histories(:), reached(:, :, :), ties(:), counts(:, :)
       real(c_double), allocatable :: elongations(:, :)
       character(len=:), allocatable :: flags, more
-      integer :: i, at, bytes, number
+      integer(int64) :: at, bytes, number
+      integer :: i, stat
 
       at = 0
       number = 0
@@ -46,11 +49,16 @@ contains
             histories(i) = row%histories
             reached(:, :, i) = count(row%flags, dim=1)
             ties(i) = row%ties
-            call add_tallies(counts, elongations, number, row%tallies)
+            call add_tallies(counts, elongations, number, row%tallies, error)
+            if (allocated(error)) return
             ! Room for the bytes that fill up the last integer, too
-            bytes = int(bytes_of_flags(shape, row%histories))
-            if (at + bytes + 3 > len(flags)) then
-               allocate (character(len=2*(at + bytes + 3)) :: more)
+            bytes = bytes_of_flags(shape, row%histories)
+            if (at + bytes + 3 > len(flags, int64)) then
+               allocate (character(len=2*(at + bytes + 3)) :: more, stat=stat)
+               if (stat /= 0) then
+                  call raise_shortage(2.0_c_double*real(at + bytes + 3, c_double), error)
+                  return
+               end if
                more(:at) = flags(:at)
                call move_alloc(more, flags)
             end if
@@ -60,29 +68,38 @@ contains
       end associate
       flags(at + 1:at + 3) = repeat(achar(0), 3)
       call parcel%put('histories', histories)
-      call parcel%put('reached', reshape(reached, [size(reached)]), shape(reached))
+      call parcel%put('reached', reshape(reached, [size(reached, kind=int64)]), shape(reached))
       call parcel%put('ties', ties)
-      call parcel%put('tie_counts', reshape(counts(:, :number), [2*number]), [2, number])
-      call parcel%put('elongations', reshape(elongations(:, :number), [2*number]), [2, number])
+      call parcel%put('tie_counts', reshape(counts(:, :number), [2*number]), [2, int(number)])
+      call parcel%put('elongations', reshape(elongations(:, :number), [2*number]), [2, int(number)])
       call parcel%put('flags', transfer(flags(:(at + 3)/4*4), [0_c_int]))
-      call parcel%put('flag_bytes', at)
+      call parcel%put('flag_bytes', real(at, c_double))
    end subroutine pack_store
 
    !> Add what the histories of a row do to its ties behind that of others; there is room for as many again
-   subroutine add_tallies(counts, elongations, number, more)
+   subroutine add_tallies(counts, elongations, number, more, error)
       integer(c_int), allocatable, intent(inout) :: counts(:, :)
       real(c_double), allocatable, intent(inout) :: elongations(:, :)
       !> How many there are
-      integer, intent(inout) :: number
+      integer(int64), intent(inout) :: number
       !> Those of the row (ties, levels)
       type(tie_tally_type), intent(in) :: more(:, :)
+      !> Lack of memory
+      type(error_type), allocatable, intent(out) :: error
 
       integer(c_int), allocatable :: wider(:, :)
       real(c_double), allocatable :: longer(:, :)
-      integer :: i, j
+      integer(int64) :: room
+      integer :: i, j, stat
 
-      if (number + size(more) > size(counts, 2)) then
-         allocate (wider(2, 2*(number + size(more))), longer(2, 2*(number + size(more))))
+      if (number + size(more) > size(counts, 2, int64)) then
+         room = 2*(number + size(more))
+         allocate (wider(2, room), stat=stat)
+         if (stat == 0) allocate (longer(2, room), stat=stat)
+         if (stat /= 0) then
+            call raise_shortage(24.0_c_double*real(room, c_double), error)
+            return
+         end if
          wider(:, :number) = counts(:, :number)
          longer(:, :number) = elongations(:, :number)
          call move_alloc(wider, counts)

@@ -199,7 +199,7 @@ contains
          length = length + bytes_of_entry(shape, rows(i)%histories, rows(i)%ties)
       end do
       allocate (character(len=(length + 3)/4*4) :: bytes)
-      bytes(length + 1:) = repeat(achar(0), len(bytes) - int(length))
+      bytes(length + 1:) = repeat(achar(0), int(len(bytes, int64) - length))
       at = 0
       do i = 1, size(rows)
          length = bytes_of_entry(shape, rows(i)%histories, rows(i)%ties)

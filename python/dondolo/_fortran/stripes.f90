@@ -8,7 +8,8 @@ module stripes
    use dondolo_base_threads, only : check_threads, team_of
    use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : as_solver, check_room, unpack_response
-   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
+   use dondolo_case_event_warnings, only : warn_of_events
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_records
    use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_fragility_even_levels, only : settle_levels
    use dondolo_fragility_scaling, only : new_scaling, scaling_type, unscaled
@@ -19,7 +20,7 @@ module stripes
    use dondolo_motion_solver, only : check_limit
    use dondolo_motion_work, only : work_type
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_record_catalogue, only : record_rows_type
+   use dondolo_record_rows, only : record_rows_type
    use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    implicit none
@@ -126,13 +127,14 @@ contains
       call report(error, failure)
    end subroutine runs_of_records
 
-   !> Check what stripes of walls would be, without running them: whether walls of the same gravity and number of sides have
-   !> the same plan; the warnings, those of the walls alone first, and how many these are; the histories of each wall in a
-   !> stripe in which every record runs; of those of the last wall record (from 0) and polarity, the scales, stripe by stripe,
-   !> and, unless all run at every level, which run
-   subroutine plan(study, walls, w, sent)
+   !> Check what stripes of walls would be, without running them, and what EDP thresholds make of them: whether walls of the same
+   !> gravity and number of sides have the same plan; the warnings, those of the walls alone first, and how many these are; the
+   !> histories of each wall in a stripe in which every record runs; of those of the last wall record (from 0) and polarity, the
+   !> scales, stripe by stripe, and, unless all run at every level, which run
+   subroutine plan(study, walls, w, thresholds, k, sent)
       integer(c_int64_t), intent(in) :: study, walls
-      integer(c_int), intent(in) :: w
+      integer(c_int), intent(in) :: w, k
+      real(c_double), intent(in) :: thresholds(k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: wall(:)
@@ -169,7 +171,7 @@ contains
          call wall_warnings%look(wall(i))
       end do
       if (.not. allocated(error)) then
-         call wall_warnings%warn(warnings)
+         call wall_warnings%warn(warnings, chosen%suite%records, thresholds)
          of_walls = warnings%count
          call warn_of_records(chosen%suite, wall(1)%gravity, warnings)
          ! Histories of one stripe whose level is the factor are points, not counts of clusters
@@ -205,7 +207,7 @@ contains
       if (.not. allocated(error)) call chosen%check(wall(1), error)
       if (.not. allocated(error)) then
          call wall_warnings%look(wall(1))
-         call wall_warnings%warn(warnings)
+         call wall_warnings%warn(warnings, chosen%suite%records)
          call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)

@@ -18,7 +18,7 @@ module tables
    use dondolo_fragility, only : fragility_type
    use dondolo_fragility_tie_tallies, only : tie_tally_type
    use dondolo_interface_handles, only : find_walls
-   use dondolo_motion_certificate, only : certified_type
+   use dondolo_motion_certified, only : certified_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_population_designs, only : design_type
    use dondolo_population_occurrence, only : exclusive, occurrence_names
@@ -36,44 +36,54 @@ module tables
 
 contains
 
-   !> Walls: of each its group, its facade, its occurrence and its alternative as lines, and its weight and the probability of its
-   !> mechanism
-   subroutine wall_table(walls, texts, shares, w, sent)
+   !> Walls: of each its group, its facade, its occurrence, its alternative and its notes as lines, and its weight and the
+   !> probability of its mechanism; notes: their names, a line each
+   subroutine wall_table(walls, texts, notes, shares, w, sent)
       integer(c_int64_t), intent(in) :: walls
-      character(len=*), intent(in) :: texts
+      character(len=*), intent(in) :: texts, notes
       integer(c_int), intent(in) :: w
       real(c_double), intent(in) :: shares(2, w)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
       type(wall_row_type) :: row
-      type(lines_type) :: words
+      type(lines_type) :: words, names
       type(columns_type) :: table
       type(error_type), allocatable :: error
       integer, allocatable :: lengths(:)
       logical :: has_facades, has_alternatives
-      integer :: i
+      integer :: i, k, of_wall
 
       call check_room(error, walls=w)
       if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
          call split_lines(texts, words)
+         call split_lines(notes, names)
+         of_wall = 4 + names%count
          lengths = wall(1)%input%lengths()
          has_facades = .false.
          has_alternatives = .false.
          do i = 1, w
             lengths = max(lengths, wall(i)%input%lengths())
-            has_facades = has_facades .or. len(words%line(4*i - 2)%text) > 0
-            has_alternatives = has_alternatives .or. words%line(4*i - 1)%text == occurrence_names(exclusive)
+            associate (line => words%line(of_wall*(i - 1) + 1:))
+               has_facades = has_facades .or. len(line(2)%text) > 0
+               has_alternatives = has_alternatives .or. line(3)%text == occurrence_names(exclusive)
+            end associate
          end do
          do i = 1, w
             row%wall = wall(i)
-            row%group = words%line(4*i - 3)%text
-            row%facade = words%line(4*i - 2)%text
-            row%occurrence = words%line(4*i - 1)%text
-            row%alternative = words%line(4*i)%text
+            associate (line => words%line(of_wall*(i - 1) + 1:))
+               row%group = line(1)%text
+               row%facade = line(2)%text
+               row%occurrence = line(3)%text
+               row%alternative = line(4)%text
+               row%notes = lines_type()
+               do k = 5, of_wall
+                  call row%notes%add(line(k)%text)
+               end do
+            end associate
             row%weight = shares(1, i)
             row%p_occ = shares(2, i)
-            call put_wall(table, row, lengths, has_facades, has_alternatives)
+            call put_wall(table, row, lengths, has_facades, has_alternatives, names)
             call table%end_row()
          end do
       end if
@@ -172,7 +182,7 @@ contains
    end subroutine fragility_table
 
    !> k curves of a population at m levels: of each as lines its mechanism and its group; sums, weight, both dispersions,
-   !> saturation and share that is fitted; at each level the mean fraction, the mean curve and three fractiles
+   !> upper asymptote and share that is fitted; at each level the mean fraction, the mean curve and three fractiles
    subroutine typology_table(texts, im, levels, sums, means, curve_names, curve_texts, curve_numbers, m, p, k, sent)
       character(len=*), intent(in) :: texts, im, curve_names, curve_texts
       integer(c_int), intent(in) :: m, p, k
@@ -198,7 +208,7 @@ contains
             typology%weight = sums(1, i)
             typology%beta_walls = sums(2, i)
             typology%beta_records = sums(3, i)
-            typology%saturation = sums(4, i)
+            typology%upper_asymptote = sums(4, i)
             typology%fitted = sums(5, i)
             typology%mean_fraction = means(:, 1, i)
             typology%mean_curve = means(:, 2, i)

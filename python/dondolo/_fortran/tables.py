@@ -51,22 +51,24 @@ def unpack_table(parcel: Parcel, name: str) -> TableColumns:
     """A table of a parcel; those of one parcel must be unpacked in their order, each once."""
     rows = parcel[f"{name}:rows"]
     columns: TableColumns = {}
-    for head, kind in zip(parcel[name], parcel[f"{name}:kinds"].tolist(), strict=True):
-        if kind == TEXT:
-            columns[head] = Column(kind, parcel[f"{name}:{head}"])
-            continue
+    for number, (head, kind) in enumerate(zip(parcel[name], parcel[f"{name}:kinds"].tolist(), strict=True), 1):
         values = parcel.series(rows)
+        if kind == TEXT:
+            # Texts that differ come once.
+            words = np.array(parcel[f"{name}:{number}"], dtype=np.object_)
+            columns[head] = Column(kind, words[values.astype(np.intp) - 1].tolist())
+            continue
         values.flags.writeable = False
         columns[head] = Column(kind, values)
     return columns
 
 
 def wall_columns(
-    walls: Handle, words: Iterable[tuple[str, str, str, str]], weights: FloatArray, p_occ: FloatArray
+    walls: Handle, words: Iterable[Sequence[str]], notes: Sequence[str], weights: FloatArray, p_occ: FloatArray
 ) -> TableColumns:
-    """Columns of ``_walls.csv``; words are group, facade, occurrence and alternative of each wall."""
+    """Columns of ``_walls.csv``; words are group, facade, occurrence, alternative and notes of each wall."""
     texts = text_lines(word for own in words for word in own)
-    return _receive(_core.tables.wall_table(walls.number, texts, np.stack([weights, p_occ])))
+    return _receive(_core.tables.wall_table(walls.number, texts, text_lines(notes), np.stack([weights, p_occ])))
 
 
 def history_columns(
@@ -117,7 +119,7 @@ def typology_columns(
 ) -> TableColumns:
     """Columns of ``_typology.csv``.
 
-    Of each curve mechanism and group; weight, both dispersions, saturation and share that is fitted; and (5, levels)
+    Of each curve mechanism and group; weight, both dispersions, upper asymptote and fitted share; and (5, levels)
     mean fraction, mean curve and fractiles.
     """
     flat = np.array(sums).T, np.array(means).T

@@ -9,11 +9,11 @@ module uncertainty
    use dondolo_population_sensitivity, only : new_sensitivity, sensitivity_type, smallest => smallest_sample
    use dondolo_wall, only : wall_type
    use dondolo_wall_restitution, only : published_factors
-   use dondolo_wall_tested_restitution, only : check_published, make_restitution_sentence
+   use dondolo_wall_tested_restitution, only : check_published, make_restitution_sentence, published_parameters
    implicit none
    private
 
-   public :: sensitivity, published, smallest_sample, check_factor, restitution_sentence
+   public :: sensitivity, published, smallest_sample, check_factor, factor_parameters, restitution_sentence
 
 contains
 
@@ -51,21 +51,23 @@ contains
       samples = smallest(int(quantities))
    end subroutine smallest_sample
 
-   !> Published ranges of the factor on restitution, as columns
+   !> Published ranges and distributions of the factor on restitution, as columns
    subroutine published(sent)
       integer(c_int64_t), intent(out) :: sent(5)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
-      type(lines_type) :: names, sources
+      type(lines_type) :: names, kinds, sources
       integer :: i
 
       do i = 1, size(published_factors)
          call names%add(trim(published_factors(i)%name))
+         call kinds%add(trim(published_factors(i)%kind))
          call sources%add(trim(published_factors(i)%source))
       end do
       call parcel%put('name', names)
-      call parcel%put('low', published_factors%low)
-      call parcel%put('high', published_factors%high)
+      call parcel%put('kind', kinds)
+      call parcel%put('first', published_factors%parameters(1))
+      call parcel%put('second', published_factors%parameters(2))
       call parcel%put('source', sources)
       call send(parcel, error, sent)
    end subroutine published
@@ -82,6 +84,20 @@ contains
       if (.not. allocated(error)) call check_published(name, wall(1), error)
       call report(error, failure)
    end subroutine check_factor
+
+   !> Parameters of a published distribution for the variants of a wall
+   subroutine factor_parameters(walls, name, sent)
+      integer(c_int64_t), intent(in) :: walls
+      character(len=*), intent(in) :: name
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(wall_type), pointer :: variants(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, variants, error)
+      if (.not. allocated(error)) call parcel%put('parameters', published_parameters(name, variants))
+      call send(parcel, error, sent)
+   end subroutine factor_parameters
 
    !> What the restitution of a wall assumes beside tests, as a line, empty where there are none
    subroutine restitution_sentence(walls, sent)

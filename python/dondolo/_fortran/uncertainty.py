@@ -25,10 +25,11 @@ class Sensitivity(NamedTuple):
 
 
 class PublishedFactor(NamedTuple):
-    """A range of restitution_factor from tests."""
+    """A distribution of restitution_factor from tests: its kind, 'uniform' or 'normal', and its two parameters."""
 
-    low: float
-    high: float
+    kind: str
+    first: float
+    second: float
     source: str
 
 
@@ -50,9 +51,10 @@ def smallest_sample(quantities: int) -> int:
 
 @functools.cache
 def published_factors() -> dict[str, PublishedFactor]:
-    """Ranges of restitution_factor from tests, by their names."""
+    """Distributions of restitution_factor from tests, by their names."""
     parcel = receive(_core.uncertainty.published())
-    ranges = map(PublishedFactor, parcel["low"].tolist(), parcel["high"].tolist(), parcel["source"])
+    numbers = parcel["first"].tolist(), parcel["second"].tolist()
+    ranges = map(PublishedFactor, parcel["kind"], *numbers, parcel["source"])
     return dict(zip(parcel["name"], ranges, strict=True))
 
 
@@ -60,6 +62,14 @@ def check_factor(wall: Handle, name: str) -> None:
     """Refuse a published range that was not measured against the restitution of a wall."""
     failure = _core.uncertainty.check_factor(wall.number, name.encode())
     check(failure)
+
+
+def factor_parameters(walls: Handle, name: str) -> list[float]:
+    """Parameters of a published distribution for the variants of a wall: of a normal one also where it is cut off."""
+    parameters: list[float] = receive(_core.uncertainty.factor_parameters(walls.number, name.encode()))[
+        "parameters"
+    ].tolist()
+    return parameters
 
 
 def restitution_sentence(wall: Handle) -> str:

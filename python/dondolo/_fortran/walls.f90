@@ -9,18 +9,39 @@ module walls
    use dondolo_interface_handles, only : find_walls, hold, walls_type
    use dondolo_motion_response, only : response_type
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_population_reader, only : read_population
-   use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_population_table, only : population_table_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_parcel, only : pack_rows, pack_walls, set_walls
+   use dondolo_wall_parcel, only : set_positions, set_walls, walls_parcel_type
+   use dondolo_wall_strip_bending, only : pinned_period
    use dondolo_wall_tie_statics, only : ties_after
    implicit none
    private
 
-   public :: new_walls, describe_walls, wall_terms, tie_states, open_anchors, tally_ties, read_walls
+   public :: new_walls, describe_walls, wall_terms, chain_motion, bending_period, tie_states, open_anchors, tally_ties
+   public :: read_walls
 
 contains
+
+   !> Period of a strip between pinned ends, of a modulus of elasticity; infinite if its load buckles it
+   subroutine bending_period(walls, modulus, period, failure)
+      integer(c_int64_t), intent(in) :: walls
+      real(c_double), intent(in) :: modulus
+      real(c_double), intent(out) :: period
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(error_type), allocatable :: error
+
+      period = 0.0_c_double
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) then
+         associate (wall => wall(1))
+            period = pinned_period(wall%input%number('height'), wall%input%number('thickness'), wall%input%number('density'), &
+               & wall%input%number('overburden'), wall%gravity, modulus)
+         end associate
+      end if
+      call report(error, failure)
+   end subroutine bending_period
 
    !> Upload walls that Python has had described
    subroutine new_walls(texts, numbers, n, given, q, gravity, w, handle, failure)
@@ -45,18 +66,25 @@ contains
       call report(error, failure)
    end subroutine new_walls
 
-   !> Walls with their defaults filled in and their static quantities, as pack_walls has them
+   !> Walls with their defaults filled in and their static quantities, as walls_parcel_type has them
    subroutine describe_walls(texts, numbers, n, given, q, gravity, w, sent)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n, q, w, given(q, w)
       real(c_double), intent(in) :: numbers(n), gravity(w)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), allocatable :: walls(:)
+      type(walls_parcel_type) :: packed
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
+      integer :: i
 
       call set_walls(walls, texts, numbers, given, gravity, error)
-      if (.not. allocated(error)) call pack_walls(walls, parcel)
+      if (.not. allocated(error)) then
+         do i = 1, size(walls)
+            call packed%add_wall(walls(i))
+         end do
+         call packed%put_walls(parcel)
+      end if
       call send(parcel, error, sent)
    end subroutine describe_walls
 
@@ -85,6 +113,25 @@ contains
       end if
       call report(error, failure)
    end subroutine wall_terms
+
+   !> Positions (x, y, phi) of the k bodies of a chain at n rotations
+   subroutine chain_motion(walls, rotation, n, k, positions, failure)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: n, k
+      real(c_double), intent(in) :: rotation(n)
+      real(c_double), intent(out) :: positions(3, k, n)
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(error_type), allocatable :: error
+
+      positions = 0
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call check_rotations(wall(1)%mechanism, rotation, error)
+      if (.not. allocated(error)) then
+         call set_positions(wall(1), rotation, positions)
+      end if
+      call report(error, failure)
+   end subroutine chain_motion
 
    !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest
    !> rotations / capacity
@@ -179,20 +226,26 @@ contains
       end do
    end subroutine check_rotations
 
-   !> Read a population: its rows as pack_rows has them, and notes: how the table was read, where there is something to say of it.
+   !> Read a population: its rows as walls_parcel_type has them, and notes: how the table was read, where there is something to
+   !> say of it.
    !> occurrence: how the mechanisms of a wall occur whose row does not say it
    subroutine read_walls(path, gravity, occurrence, sent)
       character(len=*), intent(in) :: path, occurrence
       real(c_double), intent(in) :: gravity
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_row_type), allocatable :: rows(:)
+      type(population_table_type) :: table
+      type(walls_parcel_type) :: packed
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       character(len=:), allocatable :: note
 
-      call read_population(path, rows, error, gravity, note, occurrence)
-      if (.not. allocated(error)) call check_room(error, walls=size(rows))
-      if (.not. allocated(error)) call pack_rows(rows, parcel)
+      table%occurrence = occurrence
+      call table%read(path, error, gravity)
+      if (.not. allocated(error)) call packed%add_rows(table, error)
+      if (.not. allocated(error)) then
+         call packed%put_rows(table%notes, parcel)
+         note = table%csv%note()
+      end if
       call parcel%put_note(note)
       call send(parcel, error, sent)
    end subroutine read_walls

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number, as_path
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_flag, as_number, as_path, refuse_units
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.handles import Handle
@@ -60,7 +60,13 @@ def _words(value: Any) -> Any:
 def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
     """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
     several = {
-        what: [value if what in WALL_TEXTS or what in WALL_LISTS else as_number(what, value)]
+        what: [
+            value
+            if what in WALL_TEXTS or what in WALL_LISTS
+            else float(as_flag(what, value))
+            if what in WALL_FLAGS
+            else as_number(what, value)
+        ]
         for what, value in values.items()
         if value is not None
     }
@@ -68,7 +74,7 @@ def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
     return describe_walls(1, several, [pull])[0]
 
 
-def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> list[WallData]:
+def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> WallTable:
     """The same for many walls: values of each property for all of them; what is None or not there gets its default."""
     known = [(i, what) for i, what in enumerate(WALL_NUMBERS) if what in values]
     columns = {what: [_values(what, value) for value in values[what]] for _, what in known}
@@ -93,6 +99,7 @@ def _values(what: str, value: Any) -> Sequence[float]:
         return ()
     if what not in WALL_LISTS:
         return (value,)
+    refuse_units(what, value)
     numbers: list[float] = as_array(what, np.atleast_1d(value)).tolist()
     return numbers
 
@@ -107,6 +114,22 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     check(failure)
     found: FloatArray = terms.T.reshape(6, *shape)
     return found
+
+
+def chain_motion(wall: Handle, rotation: ArrayLike, bodies: int) -> FloatArray:
+    """Positions x, y and phi of the bodies of a chain, in the shape of the rotations, then bodies, then 3."""
+    values, shape = np.ravel(rotation), np.shape(rotation)
+    positions, failure = _core.walls.chain_motion(wall.number, as_array("rotation", values), bodies)
+    check(failure)
+    found: FloatArray = positions.T.reshape(*shape, bodies, 3)
+    return found
+
+
+def bending_period(wall: Handle, modulus: float) -> float:
+    """Period of a strip between pinned ends [s], of a modulus of elasticity [Pa]; huge if its load buckles it."""
+    period, failure = _core.walls.bending_period(wall.number, modulus)
+    check(failure)
+    return float(period)
 
 
 def open_anchors(wall: Handle, ties: int) -> NDArray[np.bool_]:
@@ -137,36 +160,163 @@ def tie_tallies(
     return counts.reshape(2, -1, order="F"), elongations.reshape(2, -1, order="F")
 
 
-def unpack_walls(parcel: Parcel) -> list[WallData]:
-    """Walls out of a parcel."""
-    words, texts = len(WALL_TEXTS), parcel["walls_texts"]
-    values = iter(parcel["walls_values"].tolist())
-    columns = [parcel[f"walls_{name}"].tolist() for name in ("statics", "given", "two_sided")]
-    return [
-        WallData(
-            _named(WALL_TEXTS, texts[words * i : words * (i + 1)], WALL_WORDS)
-            | {what: _value(values, what, length) for what, length in zip(WALL_NUMBERS, given, strict=True)},
-            statics[0],
-            tuple(statics[1:]),
-            bool(two_sided),
+class WallTable:
+    """Walls as Fortran has understood them, as columns: a property takes room where a wall has it.
+
+    Parameters
+    ----------
+    statics : ndarray, shape (walls, quantities)
+        Gravity and the static quantities.
+    two_sided : ndarray of bool, shape (walls,)
+    texts : mapping of str to sequence
+        Texts of each wall, '' for none.
+    numbers : mapping of str to ndarray
+        Numbers of each wall, NaN for none; a property that no wall has is left out.
+    lists : mapping of str to (ndarray, ndarray)
+        Values of all walls, and how many each wall has; likewise.
+    """
+
+    __slots__ = ("_ends", "lists", "numbers", "statics", "texts", "two_sided")
+
+    def __init__(
+        self,
+        statics: FloatArray,
+        two_sided: NDArray[np.bool_],
+        texts: Mapping[str, Sequence[str]],
+        numbers: Mapping[str, FloatArray],
+        lists: Mapping[str, tuple[FloatArray, NDArray[np.int32]]],
+    ) -> None:
+        self.statics, self.two_sided = statics, two_sided
+        self.texts, self.numbers, self.lists = texts, numbers, lists
+        self._ends: dict[str, NDArray[np.intp]] = {}
+
+    def __len__(self) -> int:
+        return len(self.statics)
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        return self.statics, self.two_sided, self.texts, self.numbers, self.lists
+
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        self.__init__(*state)  # type: ignore[misc]
+
+    def column(self, what: str) -> list[Any]:
+        """A property of all walls: a text, a number or a tuple, None where a wall does not have it."""
+        if what in WALL_WORDS:
+            return [tuple(word.strip() for word in own.split(",")) if own else None for own in self.texts[what]]
+        if what in WALL_TEXTS:
+            return [own or None for own in self.texts[what]]
+        if what in self.lists:
+            return [self._list(what, i) for i in range(len(self))]
+        if what not in self.numbers:
+            return [None] * len(self)
+        return [None if one != one else one for one in self.numbers[what].tolist()]
+
+    def _list(self, what: str, i: int) -> tuple[float, ...] | None:
+        values, counts = self.lists[what]
+        if what not in self._ends:
+            self._ends[what] = np.cumsum(counts)
+        end = int(self._ends[what][i])
+        own = values[end - int(counts[i]) : end].tolist()
+        return tuple(own) if own else None
+
+    def __getitem__(self, i: int) -> WallData:
+        """The wall of a row."""
+        properties: dict[str, Any] = dict.fromkeys(WALL_NUMBERS)
+        properties |= {what: texts[i] for what, texts in self.texts.items()}
+        for what in WALL_WORDS:
+            own = properties[what]
+            properties[what] = tuple(word.strip() for word in own.split(",")) if own else None
+        properties |= {what: self._list(what, i) for what in self.lists}
+        for what, values in self.numbers.items():
+            value = float(values[i])
+            if value == value:
+                properties[what] = bool(value) if what in WALL_FLAGS else value
+        gravity, *statics = self.statics[i].tolist()
+        return WallData(properties, gravity, tuple(statics), bool(self.two_sided[i]))
+
+    def take(self, rows: NDArray[np.intp]) -> WallTable:
+        """The walls of some rows."""
+        lists = {}
+        for what, (values, counts) in self.lists.items():
+            own = counts[rows]
+            first = (np.cumsum(counts) - counts)[rows]
+            lists[what] = values[np.repeat(first - (np.cumsum(own) - own), own) + np.arange(own.sum())], own
+        chosen = rows.tolist()
+        texts = {what: tuple(own[i] for i in chosen) for what, own in self.texts.items()}
+        numbers = {what: values[rows] for what, values in self.numbers.items()}
+        return WallTable(self.statics[rows], self.two_sided[rows], texts, numbers, lists)
+
+    @classmethod
+    def join(cls, tables: Sequence[WallTable]) -> WallTable:
+        """Walls of several tables, one after the other."""
+        nothing = np.empty(0)
+        numbers = {
+            what: np.concatenate([one.numbers.get(what, np.full(len(one), np.nan)) for one in tables])
+            for what in dict.fromkeys(what for one in tables for what in one.numbers)
+        }
+        lists = {}
+        for what in dict.fromkeys(what for one in tables for what in one.lists):
+            parts = [one.lists.get(what, (nothing, np.zeros(len(one), dtype=np.int32))) for one in tables]
+            values, counts = zip(*parts, strict=True)
+            lists[what] = np.concatenate(values), np.concatenate(counts)
+        return cls(
+            np.concatenate([one.statics for one in tables]),
+            np.concatenate([one.two_sided for one in tables]),
+            {what: tuple(itertools.chain.from_iterable(one.texts[what] for one in tables)) for what in WALL_TEXTS},
+            numbers,
+            lists,
         )
-        for i, (statics, given, two_sided) in enumerate(zip(*columns, strict=True))
-    ]
+
+    @property
+    def flat(self) -> FlatWall:
+        """The walls as Fortran takes them."""
+        given = np.zeros((len(self), len(WALL_NUMBERS)), dtype=np.int32)
+        columns = {what: ~np.isnan(values) for what, values in self.numbers.items()}
+        columns |= {what: counts for what, (_, counts) in self.lists.items()}
+        for i, what in enumerate(WALL_NUMBERS):
+            if what in columns:
+                given[:, i] = columns[what]
+        first = np.cumsum(given).reshape(given.shape) - given
+        # f2py takes no empty arrays
+        numbers = np.zeros(int(given.sum()) + 1)
+        for i, what in enumerate(WALL_NUMBERS):
+            if what in self.numbers:
+                there = columns[what]
+                numbers[first[there, i]] = self.numbers[what][there]
+            elif what in self.lists:
+                values, counts = self.lists[what]
+                numbers[np.repeat(first[:, i] - (np.cumsum(counts) - counts), counts) + np.arange(len(values))] = values
+        texts = "\n".join(itertools.chain.from_iterable(zip(*(self.texts[what] for what in WALL_TEXTS), strict=True)))
+        return FlatWall(texts.encode(), numbers, given.T, np.ascontiguousarray(self.statics[:, 0]))
 
 
-def _named(names: Sequence[str], texts: Sequence[str], several: Sequence[str]) -> dict[str, Any]:
-    """Texts by their names; those of several words as a tuple, None where there are none."""
-    found: dict[str, Any] = dict(zip(names, texts, strict=True))
-    for name in several:
-        found[name] = tuple(word.strip() for word in found[name].split(",")) if found[name] else None
-    return found
+def shared(texts: Sequence[str]) -> tuple[str, ...]:
+    """Texts of which those that are alike are one."""
+    known: dict[str, str] = {}
+    return tuple(known.setdefault(text, text) for text in texts)
 
 
-def _value(values: Iterator[float], what: str, length: int) -> Any:
-    """The next value: a number, a tuple of them for a list, None for none."""
-    if length == 0:
-        return None
-    return tuple(itertools.islice(values, length)) if what in WALL_LISTS else next(values)
+def unpack_walls(parcel: Parcel) -> WallTable:
+    """Walls out of a parcel."""
+    words, texts, given = len(WALL_TEXTS), parcel["walls_texts"], parcel["walls_given"]
+    values, numbers, lists = parcel["walls_values"], {}, {}
+    of_walls = given.sum(axis=1)
+    # Where the next values of each wall are
+    first = np.cumsum(of_walls) - of_walls
+    for what, counts in zip((WALL_NUMBERS[i] for i in parcel["walls_numbers"]), given.T, strict=True):
+        if what in WALL_LISTS:
+            before = np.cumsum(counts) - counts
+            lists[what] = values[np.repeat(first - before, counts) + np.arange(counts.sum())], counts.copy()
+        else:
+            numbers[what] = np.where(counts > 0, values[np.minimum(first, len(values) - 1)], np.nan)
+        first = first + counts
+    return WallTable(
+        parcel["walls_statics"].copy(),
+        parcel["walls_two_sided"] == 1,
+        {what: shared(texts[i::words]) for i, what in enumerate(WALL_TEXTS)},
+        numbers,
+        lists,
+    )
 
 
 def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
@@ -182,7 +332,7 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
 
 def read_walls(
     path: str | os.PathLike[str], gravity: float | None, occurrence: str, noted: Callable[[str], str] = str
-) -> tuple[list[WallData], dict[str, Any]]:
+) -> tuple[WallTable, dict[str, Any]]:
     """Read a population: its walls, and what `Population` has of each.
 
     occurrence: where the table does not say it; noted: the words of a note on how the table was read.
@@ -195,9 +345,16 @@ def read_walls(
 
 def rows_of(parcel: Parcel) -> dict[str, Any]:
     """What a parcel has of each row of a population besides its wall, by the names of `Population`."""
-    words = {"groups": "group", "facades": "facade", "occurrence": "occurrence", "alternatives": "alternative"}
-    found: dict[str, Any] = {name: tuple(parcel[f"walls_{own}"]) for name, own in words.items()}
-    return found | {"weights": parcel["walls_weight"], "p_occ": parcel["walls_p_occ"]}
+    words = {"group_names": "group", "facades": "facade", "occurrence": "occurrence", "alternatives": "alternative"}
+    found: dict[str, Any] = {name: shared(parcel[f"walls_{own}"]) for name, own in words.items()}
+    names, notes = parcel["walls_note_names"], parcel["walls_notes"]
+    found["notes"] = {name: shared(notes[i :: len(names)]) for i, name in enumerate(names)}
+    return found | {"weights": parcel["walls_weight"].copy(), "p_occ": parcel["walls_p_occ"].copy()}
+
+
+def is_note(column: str) -> bool:
+    """Is a column of a table of walls one that is kept as it stands?"""
+    return column.lower().startswith(constants().notes)
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself
@@ -207,10 +364,15 @@ WALL_NUMBERS = tuple(row.name for row in WALL_PROPERTIES if row.name not in WALL
 # Those that have several values, and those whose values are texts
 WALL_LISTS = frozenset(row.name for row in WALL_PROPERTIES if row.kind in ("list", "words"))
 WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
+# Those that are yes or no
+WALL_FLAGS = frozenset(row.name for row in WALL_PROPERTIES if row.kind == "logical")
 # Those that only some walls have: tables show them where one of theirs has them
 WALL_EXTRAS = frozenset(
-    row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
-) | frozenset(("restitution_sd", "restitution_seed", *BUILDING_NAMES))
+    row.name
+    for row in properties("wall")
+    # Every strip has a hinge, given or found.
+    if row.default == "optional" and row.owners and row.column and row.name != "hinge"
+) | frozenset(("restitution_sd", "restitution_seed", "base_level", *BUILDING_NAMES))
 # How the mechanisms of a wall occur
 OCCURRENCE = next(row.choices for row in properties("row") if row.name == "occurrence")
 INDEPENDENT, EXCLUSIVE = OCCURRENCE

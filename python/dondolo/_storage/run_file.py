@@ -135,7 +135,7 @@ class RunFile:
     content: Mapping[str, Any] = field(default_factory=dict, repr=False)
 
     def citing(self, *used: str) -> RunFile:
-        """The same, with the keys of the sources of what was used, in the words of dondolo_base_references."""
+        """The same, with the keys of the sources of what was used, in the words of dondolo_files_references."""
         return replace(self, references=source_keys(dict.fromkeys(used)))
 
     def setting(self, group: str, name: str, default: Any) -> Any:
@@ -187,7 +187,7 @@ class RunFile:
 
 
 def sources_of_measure(im: str) -> tuple[str, str]:
-    """Words of an intensity measure among those of dondolo_base_references."""
+    """Words of an intensity measure among those of dondolo_files_references."""
     return im, im.partition("(")[0]
 
 

@@ -55,7 +55,7 @@ _ADDED: dict[str, dict[str, Any]] = {
         for kind in ("Fragility", "FirstCollapseFragility", "LimitedFragility")
     },
     **{
-        kind: {"restitution_sd": None, "restitution_seed": None}
+        kind: {"restitution_sd": None, "restitution_seed": None, "base_level": None}
         for kind in ("FreeStandingWall", "OneSidedWall", "TabulatedWall", "TwoBlockWall")
     },
     "HazardCurve": {"rigid_ground": False},

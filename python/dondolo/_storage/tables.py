@@ -55,7 +55,7 @@ def quoted(text: str) -> str:
 def guarded(text: str, spreadsheet_safe: bool) -> str:
     """A text with an apostrophe where a spreadsheet would take it for a formula, or where it seems to have one already.
 
-    `unguarded` takes it away, as src/dondolo/base/text/csv_row.f90 does.
+    `unguarded` takes it away, as src/study/files/csv_row.f90 does.
     """
     is_formula = spreadsheet_safe and text.startswith(_FORMULA)
     return f"'{text}" if is_formula or unguarded(text) != text else text
@@ -99,7 +99,7 @@ def csv_lines(
 ) -> list[str]:
     """Lines of a table: comments, names of the columns, rows."""
     as_flag("spreadsheet_safe", spreadsheet_safe)
-    lines = [*(f"# {comment}" for comment in comments), ",".join(table)]
+    lines = [*(f"# {comment}" for comment in comments), ",".join(map(quoted, table))]
     rows = zip(*table.values(), strict=True)
     return lines + [",".join(cell(value, number, spreadsheet_safe) for value in row) for row in rows]
 

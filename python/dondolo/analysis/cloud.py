@@ -66,6 +66,7 @@ from dondolo.curves.sample import cluster_labels
 from dondolo.errors import DondoloError, DondoloWarning, Interrupted
 from dondolo.records.level_rows import scaled_records
 from dondolo.records.record import Record
+from dondolo.records.suite import upload
 from dondolo.walls.wall import Wall, notes_on_supports
 
 if TYPE_CHECKING:
@@ -458,7 +459,7 @@ def _intensities(
 
 def _labels(records: tuple[Record, ...], record_index: np.ndarray[Any, np.dtype[np.int32]]) -> list[str]:
     """Label of the cluster of each history: its event, else its record."""
-    labels = cluster_labels(len(records), [one.event for one in records], [one.checksum for one in records])
+    labels = cluster_labels(len(records), upload(records).events(), [one.checksum for one in records])
     return [labels[i] for i in record_index]
 
 

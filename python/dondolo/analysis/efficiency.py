@@ -106,7 +106,7 @@ class IntensityComparison(tables.Tabular, Saved):
             "se_beta": [curve.se_beta for curve in self.curves],
             "dispersion": self.dispersion,
             "se_dispersion": self.se_dispersion,
-            "histories": [stripes.edp.size for stripes in self.stripes],
+            "histories": [int(stripes.histories.sum()) for stripes in self.stripes],
             "largest_scale": [float(stripes.scale.max()) for stripes in self.stripes],
             "ratio": self.ratio,
             "ratio_low": self.ratio_interval[:, 0],
@@ -125,7 +125,7 @@ class IntensityComparison(tables.Tabular, Saved):
             lines.append(
                 f"{curve.im:<14}{unit:<5}{curve.theta:>9.4g}{curve.se_ln_theta:>8.4f}{curve.beta:>8.4f}"
                 f"{curve.se_beta:>8.4f}{self.dispersion[i]:>12.4f}{self.se_dispersion[i]:>8.4f}"
-                f"{ratio:>19}{self.stripes[i].edp.size:>11}"
+                f"{ratio:>19}{int(self.stripes[i].histories.sum()):>11}"
                 f"{self.stripes[i].scale.max():>7.1f}"
             )
         return "\n".join(lines)
@@ -157,7 +157,7 @@ def compare_intensities(
     n_levels: int = 15,
     polarity: Polarity = "as_recorded",
     n_resamples: int = 1000,
-    seed: int | np.random.Generator | None = 0,
+    rng: int | np.random.Generator | None = 0,
     events: Sequence[Any] | None = None,
     threads: int = 0,
     progress: bool = True,
@@ -183,7 +183,7 @@ def compare_intensities(
         As for `multiple_stripe`.
     n_resamples : int
         Samples of records for the intervals of the ratios.
-    seed : int, Generator or None
+    rng : int, Generator or None
         Of these samples.
     events : sequence, optional
         A label for each record in place of its event; records with the same label depend on each other.
@@ -234,7 +234,7 @@ def compare_intensities(
     clusters = sample_of(analyses[0], events).clusters
     interval = np.full((len(names), 2), np.nan)
     if len(set(clusters)) >= constants().fewest_clusters:
-        times = draw_records(clusters, n_resamples, seed)
+        times = draw_records(clusters, n_resamples, rng)
         drawn = np.array([resample(sample_of(stripes), times).beta for stripes in analyses]) / power[:, None]
         interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
     return IntensityComparison(

@@ -32,7 +32,7 @@ from dondolo.records.level_rows import LevelRows, records_at_levels
 from dondolo.records.record import Record
 from dondolo.records.suite import Facts, Suite
 from dondolo.records.suite import upload as upload_records
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import ColumnsOfWalls, Wall
 from dondolo.walls.wall import upload as upload_walls
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
@@ -44,6 +44,8 @@ _FIRST_SAMPLES = 20_000_000
 
 #: A level of any measure that takes no record beyond all bounds
 SMALL_LEVEL = 1e-6
+# EDP thresholds where collapse is the only state: no joint opens so late
+_COLLAPSE = np.ones(1)
 
 # What a request has in Fortran
 _UPLOADED = ("_suite", "_study", "_people", "kept")
@@ -134,7 +136,7 @@ class Request:
     Without a measure (im = '') levels are factors on the records as they stand.
     """
 
-    walls: tuple[Wall, ...]
+    walls: Sequence[Wall]
     records: tuple[Record, ...]
     levels: FloatArray
     im: str
@@ -200,17 +202,18 @@ class Request:
         """Share of the records that run at each level, shape (levels,)."""
         return np.ones(len(self.levels)) if self.rows is None else np.asarray(self.runs.mean(axis=0))
 
-    def plan(self) -> Plan:
+    def plan(self, edp_thresholds: FloatArray = _COLLAPSE) -> Plan:
         """Check everything; nothing is run."""
         study, people, wall = self._study, self._people, self.walls[0]
-        like, shared = (wall.gravity, wall.two_sided), study.shared
+        # Ties hold a strip outwards alone: the direction of a record then matters
+        like, shared = (wall.gravity, wall.two_sided and not getattr(wall, "ties", ())), study.shared
         if len(self.walls) == 1 and shared is not None and shared[0] == like:
             of_wall = unpack_warnings(receive(_core.stripes.check_wall(study.number, people.number)).lines)
             plan = shared[1]
             # A warning of its own for each caller, who may raise it
             return plan._replace(warnings=of_wall + [one.placed("") for one in plan.warnings])
         walls = len(self.walls)
-        parcel = receive(_core.stripes.plan(study.number, people.number, walls))
+        parcel = receive(_core.stripes.plan(study.number, people.number, walls, edp_thresholds))
         # Results may share it, and nobody changes it.
         parcel.integers.flags.writeable = parcel.reals.flags.writeable = False
         scale, found = parcel["scale"], unpack_warnings(parcel["warnings"])
@@ -328,7 +331,8 @@ def new_request(
     how = as_solver(solver)
     settings = how._settings(estimate_error, collapses_only)
     name = describe_measure(im).name
-    return Request(tuple(walls), several, settled, name, polarity, how.engine, settings, team, rows)
+    people = walls if isinstance(walls, ColumnsOfWalls) else tuple(walls)
+    return Request(people, several, settled, name, polarity, how.engine, settings, team, rows)
 
 
 def check_threads(threads: int) -> int:

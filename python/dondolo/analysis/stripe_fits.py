@@ -81,7 +81,10 @@ def fit_warnings(stripes: Stripes, curve: Fragility) -> list[DondoloWarning]:
     numbers = curve.theta, curve.beta, curve.bracket
     largest = float(np.nanmax(stripes.edp))
     walls = upload((stripes.wall,))
-    return warnings_of_curve(walls, stripes.levels, largest, curve.status, *numbers, records=stripes.n_records)
+    state = stripes.edp_limit if curve.edp_threshold is None else curve.edp_threshold
+    return warnings_of_curve(
+        walls, stripes.levels, largest, curve.status, *numbers, records=stripes.n_records, edp_threshold=state
+    )
 
 
 def sample_of(stripes: Stripes, events: Sequence[Any] | None = None) -> Sample:

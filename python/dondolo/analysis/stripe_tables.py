@@ -23,6 +23,8 @@ from dondolo.walls.wall import walls_table
 if TYPE_CHECKING:
     from dondolo.analysis.stripes import Stripes
 
+# Code of the warning of damage states that are reached while the joints of a strip are closed
+_WHILE_CLOSED = "threshold_while_closed"
 #: Names of the tables
 TableName = Literal["histories", "stripes", "walls"]
 
@@ -107,6 +109,7 @@ def write_stripes(
     facts = (
         one or ("",) * stripes.n_records for one in (names, stripes.events, stripes.checksums, stripes.record_formats)
     )
+    of_states = (one for curve in curves[:-1] for one in fit_warnings(stripes, curve) if one.code == _WHILE_CLOSED)
     run = RunFile(
         constants().version,
         settings={
@@ -130,7 +133,7 @@ def write_stripes(
             for name, event, checksum, form in zip(*facts, strict=True)
         ),
         work=stripes.work._asdict(),
-        warnings=(*stripes.warnings, *fit_warnings(stripes, of_collapse)),
+        warnings=(*stripes.warnings, *of_states, *fit_warnings(stripes, of_collapse)),
         shape={"walls": 1, "levels": len(stripes.levels), "states": len(levels), "records": stripes.n_records},
     )
     used = sources_of_fits(stripes.im, (stripes.wall,)) | {stripes.engine, states, *stripes.record_formats}

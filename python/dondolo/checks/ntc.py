@@ -51,9 +51,14 @@ _OPEN = {
 }
 
 # What a check comes to in words
-Verdict = Literal["verified", "verified if its ties are", "not verified", "not applicable"]
+Verdict = Literal[
+    "verified", "verified if its ties are", "verified if no hinge slides", "not verified", "not applicable"
+]
+# The ultimate limit state that a verdict rests on
+UltimateState = Literal["SLV", "SLC"]
 # The same in numbers
-_OUTCOMES = ("ratio", "zeta_e", "capacity_ag", "capacity_pga", "return_period_capacity", "probability")
+_OUTCOMES = ("ratio", "zeta_e", "capacity_ag", "capacity_pga", "return_period_capacity", "probability",
+             "probability_low", "probability_high")  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -85,7 +90,8 @@ class CodeCheck(Shown, Saved):
         Parameters
         ----------
         method : str
-            'site', 'mechanism', 'tie', 'linear', 'nonlinear' or 'dynamic'.
+            'site', 'mechanism', 'tie', 'linear', 'nonlinear', 'dynamic', 'assigned' for the given
+            hinge of a strip, or 'untied' for the curve without some ties if that is taken.
         limit_state : str
             'SLD', 'SLV' or 'SLC'; of numbers that are the same in all, any.
         quantity : str
@@ -139,8 +145,8 @@ class CodeCheck(Shown, Saved):
             "activation": self._row("mechanism", "", "a_0"),
             "multiplier": self._row("mechanism", "", "alpha_0"),
             "linear": self._row("linear", "SLV", "zeta_e"),
-            "nonlinear": self._row("nonlinear", "SLV", "zeta_e"),
-            "years": (years := self._row("nonlinear", "SLV", "return_period_capacity")),
+            "nonlinear": self._row("nonlinear", self.ultimate_state, "zeta_e"),
+            "years": (years := self._row("nonlinear", self.ultimate_state, "return_period_capacity")),
         }
         bound = {"<": -1.0, ">": 1.0}.get(years.bound, 0.0) if years is not None else 0.0
         return Safety(**{name: np.nan if row is None else row.value for name, row in rows.items()}, bound=bound)
@@ -149,9 +155,18 @@ class CodeCheck(Shown, Saved):
         """The outcome of a check (method, limit state) in words; none is verified while something of a tie is open."""
         if key in self.not_applicable:
             return "not applicable"
-        if not self.verified[key]:
+        if not self._verified[key]:
             return "not verified"
-        return "verified if its ties are" if self.open_ties else "verified"
+        if self.open_ties:
+            return "verified if its ties are"
+        return "verified if no hinge slides" if self.sliding else "verified"
+
+    @property
+    def _given_factor(self) -> float:
+        """The confidence factor that is given, by the level of knowledge."""
+        row = self._row("mechanism", "", "knowledge_given") or self._row("mechanism", "", "knowledge_factor")
+        assert row is not None
+        return row.value
 
     @property
     def items(self) -> tuple[CalculationItem, ...]:
@@ -160,7 +175,7 @@ class CodeCheck(Shown, Saved):
 
     @property
     def notes(self) -> tuple[DondoloWarning, ...]:
-        """Remarks: a strip whose hinge is not the weakest, a period beyond those of the spectrum.
+        """Remarks: a strip whose given hinge is not the weakest, a period beyond those of the spectrum.
 
         `str` of each is its sentence, and its code, subject and numbers are those of a warning.
         """
@@ -172,14 +187,51 @@ class CodeCheck(Shown, Saved):
         return self._of("capacity_pga")
 
     @property
-    def verified(self) -> dict[tuple[str, str], bool]:
-        """The verdict of each check: (method, limit state). One that is not applicable verifies nothing."""
+    def verified(self) -> dict[tuple[str, str], bool] | None:
+        """The verdict of each check: (method, limit state). One that is not applicable verifies nothing.
+
+        None where there is no spectrum at the level of the wall: its base is on a building that is not given.
+        """
+        return self._verified or None
+
+    @property
+    def _verified(self) -> dict[tuple[str, str], bool]:
         return {key: value == 1.0 for key, value in self._of("verified").items()}
 
     @property
     def not_applicable(self) -> tuple[tuple[str, str], ...]:
-        """Checks that are not applicable: linear SLV with q > 1 where an anchor gives way before its bar yields."""
+        """Checks that are not applicable: linear SLV with q > 1 where an anchor gives way before its bar yields.
+
+        All, where there is no spectrum at the level of the wall.
+        """
         return tuple(self._of("applicable"))
+
+    @property
+    def required(self) -> tuple[tuple[str, str], ...]:
+        """Checks that the verdict on the wall rests on, (method, limit state); all others are information (NTC 8.3)."""
+        found = self._of("required")
+        # A sheet of an earlier version has no such rows.
+        return tuple(key for key, value in found.items() if value) or (("nonlinear", "SLV"),)
+
+    @property
+    def ultimate_state(self) -> UltimateState:
+        """The ultimate limit state among them."""
+        return "SLC" if ("nonlinear", "SLC") in self.required else "SLV"
+
+    @property
+    def zeta_e(self) -> float:
+        """Safety index of the wall: capacity / demand of the nonlinear check of the ultimate state."""
+        return self._outcome(("nonlinear", self.ultimate_state), "ratio")
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether all that the verdict rests on is verified, and nothing is open of ties or hinges."""
+        return all(self._verdict(key) == "verified" for key in self.required)
+
+    @property
+    def sliding(self) -> tuple[str, ...]:
+        """Hinges that slide before they turn, with the friction that is given, such as 'base hinge'."""
+        return tuple(row.item for row in self.rows if row.quantity == "turns_first" and not row.value)
 
     @property
     def open_ties(self) -> dict[str, tuple[str, ...]]:
@@ -205,7 +257,8 @@ class CodeCheck(Shown, Saved):
         Returns
         -------
         dict
-            (method, limit state): at the capacity by each kinematic check, and at a_g S of the site.
+            (method, limit state): at the capacity by each kinematic check, and at a_g S of the site; empty where there
+            is no spectrum at the level of the wall.
 
         Raises
         ------
@@ -224,6 +277,8 @@ class CodeCheck(Shown, Saved):
         """
         if instance_of("curve", curve, Fragility).im != "pga":
             raise argument_error("not_together", "curve", f": its measure is {curve.im!r}, must be 'pga'")
+        if self.verified is None:
+            return {}
         return {key: float(curve(level)) for key, level in {**self._of("pga", "site"), **self.capacities}.items()}
 
     def dynamic(
@@ -331,8 +386,15 @@ class CodeCheck(Shown, Saved):
 
     def _settings(self) -> tuple[dict[str, Any], SiteInput]:
         """The group &check of a case with this site and these factors, and the same as Fortran takes it."""
-        knowledge_factor = self.value("mechanism", "", "knowledge_factor")
-        values = self.site._values(knowledge_factor, self.value("linear", "SLV", "behaviour"))
+        friction = self._row("mechanism", "", "friction")
+        values = self.site._values(
+            knowledge_factor=self._given_factor,
+            behaviour=self.value("linear", "SLV", "behaviour"),
+            ultimate_state=self.ultimate_state,
+            friction=None if friction is None else friction.value,
+            building_period=self._of_states("given_period"),
+            building_damping=self._of_states("given_damping"),
+        )
         lists = {row.name for row in properties("check") if row.kind == "list"}
         settings = {
             name: np.atleast_1d(value).tolist() if name in lists else value
@@ -351,11 +413,15 @@ class CodeCheck(Shown, Saved):
             if row.quantity == quantity and (not methods or row.method in methods)
         }
 
+    def _of_states(self, quantity: str) -> tuple[float, ...] | None:
+        """What is given for each limit state; None if nothing is."""
+        return tuple(row.value for row in self.rows if row.quantity == quantity) or None
+
     def _facts(self) -> list[tuple[str, str]]:
         names = ("alpha_0", "mass_ratio", "a_0", "d_0")
         shown = {row.quantity: row for row in self.rows if row.method == "mechanism"}
         facts = [(shown[name].symbol, f"{shown[name].value:.6g} {shown[name].unit}".strip()) for name in names]
-        for method, state in self.verified:
+        for method, state in self._verified or self.not_applicable:
             text: str = self._verdict((method, state))
             if (method, state) in self.not_applicable:
                 pass
@@ -363,16 +429,31 @@ class CodeCheck(Shown, Saved):
                 text += f", a_g S up to {self.capacities[method, state]:.4g} g"
             else:
                 count = [self.value(method, state, name) for name in ("beyond", "histories", "records")]
-                text += ", {:.0f} of {:.0f} histories of {:.0f} records".format(*count)
+                beyond, of, records = map(round, count)
+                histories = "history" if of == 1 else "histories"
+                text += f", {beyond} of {of} {histories} of {records} record{'s' * (records != 1)}"
                 # A symmetric wall has no other direction.
                 if count[1] == count[2] and self.wall.mechanism == "one_sided":
                     text += " in one direction"
                 text += " beyond d_0*"
+            if (method, state) in self.required:
+                text += ", required"
             facts.append((f"{method} {state}", text))
+        facts += [(item, "slides before it turns") for item in self.sliding]
         return [*facts, *((item, ", ".join(_OPEN[name] for name in names)) for item, names in self.open_ties.items())]
 
 
-def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> CodeCheck:
+def check_ntc(
+    wall: Wall,
+    site: Site,
+    *,
+    knowledge_factor: float = 1.35,
+    behaviour: float = 2.0,
+    ultimate_state: UltimateState = "SLV",
+    friction: float | None = None,
+    building_period: float | Sequence[float] | None = None,
+    building_damping: float | Sequence[float] | None = None,
+) -> CodeCheck:
     """Kinematic check of a wall by NTC 2018 and Circolare 7/2019, C8.7.1.2.1.
 
     Parameters
@@ -382,9 +463,18 @@ def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behavio
     site : Site
         The hazard.
     knowledge_factor : float
-        Confidence factor FC, 1 to 1.35; 1.35 where no compressive strength moves the hinge.
+        Confidence factor FC, 1 to 1.35. The check of a wall without `compressive_strength` has 1.35 all the same.
     behaviour : float
         Behaviour factor q of the linear check, 1 to 2.
+    ultimate_state : {'SLV', 'SLC'}
+        What the verdict rests on (NTC 8.3), with SLD for a site of class of use IV; SLC needs its own hazard.
+    friction : float, optional
+        Coefficient of friction at the hinges, for which a wall is marked that slides before it turns.
+    building_period : float or sequence of three floats, optional
+        Period of the first mode of the building [s], one for all limit states or those of SLD, SLV and SLC; other modes
+        keep their ratio to it. If left out, SLV and SLC take the worst of 1 to 2 times that of the `Building`.
+    building_damping : float or sequence of three floats, optional
+        Damping ratio of the modes of the building, with `building_period`; that of the `Building` if left out.
 
     Returns
     -------
@@ -410,5 +500,12 @@ def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behavio
     0.08206169897
     """
     handle = upload((instance_of("wall", wall, Wall),))
-    given = instance_of("site", site, Site)._input(knowledge_factor, behaviour)
+    given = instance_of("site", site, Site)._input(
+        knowledge_factor=knowledge_factor,
+        behaviour=behaviour,
+        ultimate_state=ultimate_state,
+        friction=friction,
+        building_period=building_period,
+        building_damping=building_damping,
+    )
     return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given))

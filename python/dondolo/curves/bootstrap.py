@@ -116,12 +116,12 @@ class Bootstrap(Shown, Saved):
         return facts
 
 
-def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArray:
+def draw_records(labels: Sequence[Any], n_resamples: int, rng: Any) -> FloatArray:
     """How often each record comes in each of some samples drawn with replacement: (samples, records).
 
     Records with the same label are drawn together. Each sample has as many records as there are.
     """
-    n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(seed)
+    n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(rng)
     places: dict[Any, int] = {}
     place = [places.setdefault(label, len(places)) for label in labels]
     if len(places) < 2:

@@ -36,7 +36,7 @@ def probability_interval(curve: LognormalCurve, x: ArrayLike, quantile: float) -
     half = half_width(gradient, curve.covariance, quantile)
     from scipy.special import ndtr
 
-    low, high = curve.saturation * ndtr(probit - half), curve.saturation * ndtr(probit + half)
+    low, high = curve.upper_asymptote * ndtr(probit - half), curve.upper_asymptote * ndtr(probit + half)
     return shaped(low, values), shaped(high, values)
 
 
@@ -45,7 +45,7 @@ def level_interval(curve: LognormalCurve, p: FloatArray, probit: FloatArray, qua
     if not np.all(np.isfinite(probit)):
         wrong = p.ravel()[~np.isfinite(probit)][0]
         raise argument_error(
-            "out_of_range", "p", f" = {wrong:g}: must be greater than 0 and less than {curve.saturation:g}"
+            "out_of_range", "p", f" = {wrong:g}: must be greater than 0 and less than {curve.upper_asymptote:g}"
         )
     half = half_width(np.stack([np.ones_like(probit), probit]), curve.covariance, quantile)
     level = curve.theta * np.exp(curve.beta * probit)

@@ -35,11 +35,13 @@ def fit_fragility(
 
     Parameters
     ----------
-    levels : array_like, shape (levels,)
+    levels : array_like, shape (levels,), or (levels, 1) with outcomes
         Levels of intensity, positive.
-    collapses : array_like, shape (levels,) or (histories, levels)
-        Collapses at each level, which need not be integers (weighted counts); or whether each history collapses at
-        each level, 1 or 0, or NaN where it was not run: of any program, or of a shaking table.
+    collapses : array_like, shape (levels,) or (levels, histories)
+        Collapses at each level, which need not be integers (weighted counts); or at each level, one row for each as in
+        `Stripes.collapsed`, whether each history collapses, 1 or 0, or NaN where it was not run: of any program, or of
+        a shaking table. As many histories as levels are refused where the outcomes leave open which are the rows;
+        levels as a column, ``levels[:, None]``, say that these are the rows.
     histories : array_like, shape (levels,) or scalar, optional
         Histories at each level, with counts.
     im : str, optional
@@ -60,8 +62,8 @@ def fit_fragility(
     Raises
     ------
     InputError
-        Impossible counts or outcomes, fractions in place of counts, a measure that is not a string, records or labels
-        that are not one per history.
+        Impossible counts or outcomes, fractions in place of counts, outcomes that are not levels first, a measure that
+        is not a string, records or labels that are not one per history.
 
     Warns
     -----
@@ -77,7 +79,7 @@ def fit_fragility(
 
     Outcomes of five histories of three records, one of which was not run at the highest level:
 
-    >>> outcomes = [[0, 0, 1], [0, 1, 1], [0, 1, float("nan")], [0, 0, 0], [0, 0, 1]]
+    >>> outcomes = [[0, 0, 0, 0, 0], [0, 1, 1, 0, 0], [1, 1, float("nan"), 0, 1]]
     >>> curve = dd.fit_fragility([0.2, 0.4, 0.8], outcomes, records=["a", "a", "b", "b", "c"])
     >>> curve.errors, curve.clusters
     ('clustered', 3)
@@ -93,7 +95,7 @@ def fit_fragility(
         for what, value in (("records", records), ("events", events)):
             if value is not None:
                 raise argument_error(
-                    "not_together", what, ": only with the outcomes of histories, shape (histories, levels)"
+                    "not_together", what, ": only with the outcomes of histories, shape (levels, histories)"
                 )
         if histories is None:
             raise argument_error("not_given", "histories", ": must be given with counts of collapses")

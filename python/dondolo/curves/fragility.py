@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from dondolo.curves.discrete import DiscreteFragility
     from dondolo.curves.goodness import GoodnessOfFit
+    from dondolo.curves.model_error import ModelError
     from dondolo.curves.regression import Logistic
 
 Interval = tuple[float, float]
@@ -63,7 +64,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         Intensity measure.
     edp_threshold : float or None
         Rotation / capacity of the damage state; None where only counts were given.
-    saturation : float
+    upper_asymptote : float
         What the probability tends to: 1, but for populations in which no mechanism may occur (`Group`); theta and beta
         are then those of the walls in which one can, and the probability is that of all.
     sample : Sample or None
@@ -147,7 +148,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         self,
         *,
         n_resamples: int = 2000,
-        seed: int | np.random.Generator | None = 0,
+        rng: int | np.random.Generator | None = 0,
         events: Sequence[Any] | None = None,
     ) -> Bootstrap:
         """Fit the curve again to records drawn with replacement.
@@ -160,7 +161,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         ----------
         n_resamples : int
             Number of samples.
-        seed : int, Generator or None
+        rng : int, Generator or None
             Of the random numbers; None: different every time.
         events : sequence, optional
             A label for each record in place of those that the curve has: records with the same label are drawn
@@ -184,7 +185,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         --------
         >>> import numpy as np
         >>> import dondolo as dd
-        >>> outcomes = np.random.default_rng(1).random((40, 3)) < [0.2, 0.5, 0.8]
+        >>> outcomes = np.random.default_rng(1).random((3, 40)) < [[0.2], [0.5], [0.8]]
         >>> curve = dd.fit_fragility([0.4, 0.6, 0.8], outcomes, records=[f"record {i}" for i in range(40)])
         >>> drawn = curve.bootstrap(n_resamples=200)
         >>> low, high = drawn.parameter_interval()["theta"]
@@ -195,9 +196,9 @@ class Fragility(LognormalCurve, Shown, Saved):
         if self.sample is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
         labels = self.sample.clusters if events is None else given_labels(self.sample.n_records, events)
-        return resample(self.sample, draw_records(labels, n_resamples, seed))
+        return resample(self.sample, draw_records(labels, n_resamples, rng))
 
-    def goodness_of_fit(self, *, n_resamples: int = 0, seed: int | np.random.Generator | None = 0) -> GoodnessOfFit:
+    def goodness_of_fit(self, *, n_resamples: int = 0, rng: int | np.random.Generator | None = 0) -> GoodnessOfFit:
         """Goodness of fit of the lognormal: deviance, residuals and, on request, the p-value of a bootstrap.
 
         The same records run at every level, so that the deviance is not distributed as chi-square: its p-value by that
@@ -208,7 +209,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         ----------
         n_resamples : int
             Number of samples of the bootstrap, 0 for none; 999 resolve a p-value of 0.05.
-        seed : int, Generator or None
+        rng : int, Generator or None
             Of the random numbers; None: different every time.
 
         Returns
@@ -233,7 +234,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         from dondolo.curves.goodness import goodness_of_fit
 
         self._need_fit()
-        return goodness_of_fit(self, n_resamples, seed)
+        return goodness_of_fit(self, n_resamples, rng)
 
     def refit(self, *, low: float = 0.0, high: float = math.inf) -> Fragility:
         """Fit the curve again to the levels of a range: how much its parameters depend on where the stripes lie.
@@ -294,6 +295,44 @@ class Fragility(LognormalCurve, Shown, Saved):
         labels = tuple(dict.fromkeys(self.sample.clusters))
         return logistic_of_stripes(self.sample.levels, *self.sample.by_cluster(labels), self.im, labels)
 
+    def with_model_error(self, bias: float, beta: float) -> ModelError:
+        """Put an error of the model beside the curve: theta exp(bias) and the root of the sum of squares of both betas.
+
+        There is no default. The numbers are how ln(measured median / computed median) varies between tested walls of
+        the mechanism; docs/experiments.md has what is known of them, and which numbers must not be taken.
+
+        Parameters
+        ----------
+        bias : float
+            Mean of ln(measured median / computed median), -2 to 0: a positive one would raise the median.
+        beta : float
+            Its standard deviation between walls, 0 to 2.
+
+        Returns
+        -------
+        ModelError
+            Both curves.
+
+        Raises
+        ------
+        InputError
+            Numbers outside of their ranges.
+        DondoloError
+            There is no curve.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.8], [4, 13, 25, 38], 44, im="pga")
+        >>> both = curve.with_model_error(-0.05, 0.25)
+        >>> [round(value, 3) for value in (curve.theta, both.theta_used, curve.beta, both.beta_used)]
+        [0.497, 0.473, 0.582, 0.634]
+        """
+        from dondolo.curves.model_error import model_error
+
+        self._need_fit()
+        return model_error(self, bias, beta)
+
     def plot(
         self, ax: Axes | None = None, *, confidence: float = 0.95, label: str | None = None, **options: Any
     ) -> Axes:
@@ -351,7 +390,7 @@ class Fragility(LognormalCurve, Shown, Saved):
     def _as_function(self) -> Fragility | DiscreteFragility:
         self._need_fit()
         # A lognormal of the format tends to 1
-        return self if self.saturation == 1.0 else super()._as_function()
+        return self if self.upper_asymptote == 1.0 else super()._as_function()
 
     def _facts(self) -> list[tuple[str, str]]:
         return facts_of(self)

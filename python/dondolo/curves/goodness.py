@@ -81,7 +81,7 @@ class GoodnessOfFit(Shown, Saved):
         return [*facts, ("largest residual", where)]
 
 
-def goodness_of_fit(curve: Fragility, n_resamples: int, seed: Any) -> GoodnessOfFit:
+def goodness_of_fit(curve: Fragility, n_resamples: int, rng: Any) -> GoodnessOfFit:
     """See `Fragility.goodness_of_fit`."""
     from scipy.special import gammaincc
 
@@ -106,7 +106,7 @@ def goodness_of_fit(curve: Fragility, n_resamples: int, seed: Any) -> GoodnessOf
         return found
     if curve.deviance_dof != len(levels) - 2:
         raise DondoloError("n_resamples: curves that were fitted together have no bootstrap of their own")
-    generator = as_generator(seed)
+    generator = as_generator(rng)
     if curve.sample is not None:
         counts, what = _draw_clusters(curve, curve.sample, number, generator), "clusters"
     else:
@@ -122,7 +122,9 @@ def goodness_of_fit(curve: Fragility, n_resamples: int, seed: Any) -> GoodnessOf
 def _chances(curve: Fragility, levels: FloatArray) -> FloatArray:
     """Probabilities of the curve, of the walls that can collapse, away from 0 and 1, where a residual has no scale."""
     tiny = np.finfo(np.float64).tiny
-    chances: FloatArray = np.clip(np.asarray(curve(levels)) / curve.saturation, tiny, 1.0 - np.finfo(np.float64).eps)
+    chances: FloatArray = np.clip(
+        np.asarray(curve(levels)) / curve.upper_asymptote, tiny, 1.0 - np.finfo(np.float64).eps
+    )
     return chances
 
 
@@ -181,6 +183,6 @@ def refit(curve: Fragility, low: float, high: float) -> Fragility:
         im=curve.im,
         wall=curve.wall,
         edp_threshold=curve.edp_threshold,
-        saturation=curve.saturation,
+        upper_asymptote=curve.upper_asymptote,
         sample=sample,
     )

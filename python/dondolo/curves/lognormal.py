@@ -30,7 +30,7 @@ class LognormalCurve(Curve):
     status: str
     bracket: Interval
     im: str = ""
-    saturation: float = 1.0
+    upper_asymptote: float = 1.0
     errors: str = "naive"
     clusters: int = 0
     degrees_of_freedom: float = np.inf
@@ -77,7 +77,7 @@ class LognormalCurve(Curve):
         """
         self._need_fit()
         values = as_levels(x)
-        return shaped(self.saturation * probability(self.theta, self.beta, values.ravel()), values)
+        return shaped(self.upper_asymptote * probability(self.theta, self.beta, values.ravel()), values)
 
     def interval(self, x: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
@@ -115,7 +115,7 @@ class LognormalCurve(Curve):
         Returns
         -------
         float or ndarray, shape of p
-            In the unit of theta; infinite from `saturation` on, which the curve does not reach.
+            In the unit of theta; infinite from `upper_asymptote` on, which the curve does not reach.
 
         Raises
         ------
@@ -136,7 +136,7 @@ class LognormalCurve(Curve):
         Parameters
         ----------
         p : array_like
-            Probabilities, greater than 0 and less than `saturation`.
+            Probabilities, greater than 0 and less than `upper_asymptote`.
         confidence : float
             Confidence, between 0 and 1.
 
@@ -188,7 +188,7 @@ class LognormalCurve(Curve):
 
     @property
     def _end(self) -> float:
-        return self.saturation
+        return self.upper_asymptote
 
     def _need_fit(self) -> None:
         if not self.has_fit:
@@ -200,11 +200,11 @@ class LognormalCurve(Curve):
             raise DondoloError(f"no standard errors: {WHY_NO_ERRORS[self.errors]}")
 
     def _probits(self, p: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Probabilities as an array, and flat the normal quantiles of their shares of the saturation."""
+        """Probabilities as an array, and flat the normal quantiles of their shares of the upper asymptote."""
         from scipy.special import ndtri
 
         values = as_probabilities("p", p)
-        return values, ndtri(np.minimum(values.ravel() / self.saturation, 1.0))
+        return values, ndtri(np.minimum(values.ravel() / self.upper_asymptote, 1.0))
 
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""

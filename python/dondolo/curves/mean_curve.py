@@ -26,14 +26,14 @@ class MeanCurve(Curve):
     ----------
     im : str
         Intensity measure.
-    saturation : float
+    upper_asymptote : float
         What the mean tends to.
     fit : Fragility
         The lognormal fitted to the mean.
     """
 
     im: str
-    saturation: float
+    upper_asymptote: float
     fit: Fragility
 
     @property
@@ -55,7 +55,7 @@ class MeanCurve(Curve):
 
     @property
     def _end(self) -> float:
-        return self.saturation
+        return self.upper_asymptote
 
     @property
     def reach(self) -> tuple[float, float]:
@@ -128,7 +128,7 @@ class MeanCurve(Curve):
         Returns
         -------
         float or ndarray, shape of p
-            Infinite where the mean does not come to p, as beyond `saturation`.
+            Infinite where the mean does not come to p, as beyond `upper_asymptote`.
 
         Raises
         ------

@@ -78,7 +78,7 @@ def _draw_fractions(
     low = np.where(z > 0.0, betaincinv(z, n - z + 1.0, lower), 0.0)
     high = np.where(z < n, betaincinv(z + 1.0, n - z, upper), 1.0)
     # Counts are those of the walls that can collapse, the curve is that of all.
-    fraction, low, high = (fragility.saturation * part for part in (z / n, low, high))
+    fraction, low, high = (fragility.upper_asymptote * part for part in (z / n, low, high))
     ax.errorbar(
         x,
         fraction,
@@ -132,5 +132,5 @@ def parameters(fit: Fragility) -> str:
     if not fit.has_fit:
         return say("no fit ({status})", status=say(fit.status.replace("_", " ")))
     unit = blank_unit(fit.im)
-    times = say(", times {share:.2g}", share=fit.saturation) if fit.saturation < 1.0 else ""
+    times = say(", times {share:.2g}", share=fit.upper_asymptote) if fit.upper_asymptote < 1.0 else ""
     return say("θ = {theta:.3g}{unit}, β = {beta:.3g}", theta=fit.theta, unit=unit, beta=fit.beta) + times

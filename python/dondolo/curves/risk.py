@@ -12,10 +12,10 @@ Hazard
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
-    saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral
-    with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare
-    levels than at frequent ones. `Risk.annual_frequency` is the lower bound. Hazard curves should begin where nothing
-    collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
+    upper asymptote where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the
+    integral with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper
+    at rare levels than at frequent ones. `Risk.annual_frequency` is the lower bound. Hazard curves should begin where
+    nothing collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
 Power laws
     With H = k0 x^-k for all x, and a lognormal fragility, it is (Cornell 1996)
 
@@ -24,8 +24,8 @@ Power laws
     For k > 0 and a P that falls more slowly than x^k towards x = 0, there is no finite frequency, and an error says so.
 Time
     Events are a Poisson process: of one wall P(at least one collapse in t years) = 1 - exp(-lambda t), and the return
-    period is 1/lambda. What stands after a collapse is the same wall. A curve with the saturation s is of a wall in
-    which something can occur with the probability s, for all events: s (1 - exp(-lambda t/s)).
+    period is 1/lambda. What stands after a collapse is the same wall. A curve with the upper asymptote s is of a wall
+    in which something can occur with the probability s, for all events: s (1 - exp(-lambda t/s)).
 Populations
     The mean curve gives the mean frequency, lambda = sum(w_i lambda_i)/sum(w_i): the share of the walls lost a year.
     The probability that a wall drawn by weight collapses in t years is another mean,
@@ -214,8 +214,8 @@ class Risk(Shown, Saved):
         -----
         Of the curve of a population it is that of a wall drawn by weight, the share of the walls that is lost, from the
         frequencies of all walls. The fit of a population is taken for that of walls that are alike, but for its
-        saturation. Any function is taken for the curve of one wall: a function hides the walls behind it, so that the
-        probability is too high for a population, and a warning says so.
+        upper asymptote. Any function is taken for the curve of one wall: a function hides the walls behind it, so that
+        the probability is too high for a population, and a warning says so.
         """
         time = as_number("years", years)
         if not 0.0 <= time < np.inf:
@@ -236,7 +236,7 @@ class Risk(Shown, Saved):
         """The walls behind the curve."""
         if isinstance(self.fragility, MeanCurve):
             return wall_frequencies(self.fragility.members, self.hazard)
-        share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
+        share = self.fragility.upper_asymptote if isinstance(self.fragility, Fragility) else 1.0
         return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
 
     def density(self, x: ArrayLike) -> Any:
@@ -318,7 +318,7 @@ class Risk(Shown, Saved):
             return np.zeros(len(x) - 1)
         if _is_lognormal(self.fragility):
             curve = self.fragility
-            parts = curve.saturation * lognormal_integrals(
+            parts = curve.upper_asymptote * lognormal_integrals(
                 np.asarray(curve.theta), np.asarray(curve.beta), self.hazard, np.log(cuts)
             )
         else:
@@ -350,14 +350,14 @@ class Risk(Shown, Saved):
 
         return draw_deaggregation(self, ax, as_count("n_bins", n_bins, 1), options)
 
-    def uncertainty(self, *, n_draws: int = 10_000, seed: int | np.random.Generator | None = 0) -> RiskUncertainty:
+    def uncertainty(self, *, n_draws: int = 10_000, rng: int | np.random.Generator | None = 0) -> RiskUncertainty:
         """Distribution of the annual frequency: that of the fragility, for the mean hazard and each of its fractiles.
 
         Parameters
         ----------
         n_draws : int
             Number of draws, at least 100.
-        seed : int, Generator or None
+        rng : int, Generator or None
             Of the random numbers; None: different every time.
 
         Returns
@@ -386,7 +386,7 @@ class Risk(Shown, Saved):
         """
         from dondolo.curves.risk_uncertainty import uncertainty
 
-        return uncertainty(self, n_draws, seed)
+        return uncertainty(self, n_draws, rng)
 
     def plot(self, ax: Iterable[Axes] | None = None, **options: Any) -> Axes:
         """Draw the hazard, the fragility, and the intensities that the risk comes from.

@@ -172,9 +172,9 @@ class RiskUncertainty(Shown, Saved):
         return [*facts, ("draws", f"{len(self.annual_frequency)}, {self.kind}")]
 
 
-def uncertainty(risk: Risk, n_draws: int, seed: Any) -> RiskUncertainty:
+def uncertainty(risk: Risk, n_draws: int, rng: Any) -> RiskUncertainty:
     """Distribution of the annual frequency of a risk: see `Risk.uncertainty`."""
-    count, generator = as_count("n_draws", n_draws, 100), as_generator(seed)
+    count, generator = as_count("n_draws", n_draws, 100), as_generator(rng)
     risks = {q: _risk(risk.fragility, hazard) for q, hazard in risk.hazard._curves().items()}
     curve = risk.fragility
     if not isinstance(curve, Fragility | MeanCurve):
@@ -248,11 +248,11 @@ def _frequencies(curve: Fragility, theta: FloatArray, beta: FloatArray, risk: Ri
     level = np.isinf(beta)
     parts = of_lognormal(theta, np.where(level, 1.0, beta), hazard)
     flat = np.inf if hazard.endless else 0.5 * hazard.annual_frequency[0]
-    least = curve.saturation * np.where(level, flat, parts.inside + parts.above)
+    least = curve.upper_asymptote * np.where(level, flat, parts.inside + parts.above)
     if hazard.endless:
         return np.stack([least, least])
     above = np.where(level, 0.5 * hazard.annual_frequency[-1], parts.above)
-    most = least + curve.saturation * (hazard.annual_frequency[-1] - above) + risk.below[1]
+    most = least + curve.upper_asymptote * (hazard.annual_frequency[-1] - above) + risk.below[1]
     return np.stack([least, most])
 
 

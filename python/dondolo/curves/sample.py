@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,7 @@ from dondolo._base.arguments import FloatArray, argument_error, as_array
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records.record import Record
+from dondolo.records.suite import upload
 
 
 @part_of_results
@@ -100,14 +101,17 @@ def sample_of_outcomes(
     events: Sequence[Any] | None,
 ) -> Sample:
     """Histories of any program as a sample, see `fit_fragility`."""
-    x = as_array("levels", levels).copy()
+    is_column = np.ndim(levels) == 2 and np.shape(levels)[1] == 1
+    x = as_array("levels", np.ravel(levels) if is_column else levels).copy()
     try:
         flags = np.asarray(outcomes, dtype=np.float64)
     except (TypeError, ValueError):
         raise argument_error("not_numbers", "collapses", ": must be numbers") from None
-    if flags.shape[1] != len(x):
+    shape = f": outcomes of shape {flags.shape} for {len(x)} levels"
+    if len(flags) != len(x):
+        turned = "; transpose it" if flags.shape[1] == len(x) else ""
         raise argument_error(
-            "wrong_length", "collapses", f": {flags.shape[1]} columns for {len(x)} levels: must be as many"
+            "wrong_length", "collapses", f"{shape}: must be (levels, histories), one row for each level{turned}"
         )
     ran = ~np.isnan(flags)
     wrong = ran & (flags != 0.0) & (flags != 1.0)
@@ -117,12 +121,22 @@ def sample_of_outcomes(
         )
     if not ran.any():
         raise argument_error("not_given", "collapses", ": no history was run")
-    several = [f"history {i + 1}" for i in range(len(flags))] if records is None else _as_records(records, len(flags))
+    if flags.shape == flags.T.shape and not is_column and _may_be_turned(x, flags):
+        raise argument_error(
+            "not_together",
+            "collapses",
+            f"{shape}, (levels, histories): with the rows as histories, collapses fall no more often from a level to a"
+            " higher one; transpose it if they are histories, else give the levels as a column, levels[:, None]",
+        )
+    number = flags.shape[1]
+    several = [f"history {i + 1}" for i in range(number)] if records is None else _as_records(records, number)
     # Name, key and label of each, as stripes label theirs
-    told = [_told(one) for one in several]
+    motions = tuple(dict.fromkeys(one for one in several if isinstance(one, Record)))
+    events_of = dict(zip(motions, upload(motions).events(), strict=True)) if motions else {}
+    told = [_told(one, events_of) for one in several]
     names, known, labels = (list(column) for column in zip(*told, strict=True))
     if events is not None:
-        labels = list(given_labels(len(flags), events, "history", "histories"))
+        labels = list(given_labels(number, events, "history", "histories"))
     first = {key: i for i, key in reversed(list(enumerate(known)))}
     place = {key: number for number, key in enumerate(dict.fromkeys(known))}
     for i, key in enumerate(known):
@@ -130,20 +144,30 @@ def sample_of_outcomes(
             raise InputError(f"events: '{labels[i]}' and '{labels[first[key]]}' for one record, '{names[i]}'")
     return Sample(
         levels=x,
-        collapsed=(flags == 1.0).T,
-        ran=ran.T,
+        collapsed=flags == 1.0,
+        ran=ran,
         record_index=np.array([place[key] for key in known], dtype=np.int64),
         record_names=tuple(names[first[key]] for key in place),
         clusters=tuple(labels[first[key]] for key in place),
     )
 
 
-def _told(record: Record | str) -> tuple[str, str, str]:
+def _may_be_turned(levels: FloatArray, flags: FloatArray) -> bool:
+    """Whether as many levels as histories, levels first, may be the other way round: by what collapses, then stands."""
+
+    def falls(outcomes: FloatArray) -> int:
+        rising = outcomes[np.argsort(levels, kind="stable")]
+        return int(((rising == 0.0) * np.cumsum(rising == 1.0, axis=0)).sum())
+
+    return not np.array_equal(flags, flags.T, equal_nan=True) and falls(flags) >= falls(flags.T)
+
+
+def _told(record: Record | str, events: Mapping[Record, str]) -> tuple[str, str, str]:
     """Name of a record, what is the same for the same record, and the label of its cluster."""
     if isinstance(record, str):
         return record, f"record {record}", f"record {record}"
     key = f"record {record.checksum}"
-    return record.name, key, f"event {record.event}" if record.event else key
+    return record.name, key, f"event {events[record]}" if events[record] else key
 
 
 def _as_records(records: Any, histories: int) -> list[Record | str]:

@@ -36,7 +36,7 @@ def facts_of(curve: Fragility) -> list[tuple[str, str]]:
     if not curve.has_fit:
         text = bracket_in_words(curve).removeprefix("the median lies ")
         return [*what, ("status", curve.status), *([("median", text)] if text else [])]
-    ends = [("saturation", f"{curve.saturation:.6g}")] if curve.saturation < 1.0 else []
+    ends = [("upper_asymptote", f"{curve.upper_asymptote:.6g}")] if curve.upper_asymptote < 1.0 else []
     return [
         *what,
         ("theta", f"{curve.theta:.6g}{unit}" + _shown_error("standard error of ln theta", curve.se_ln_theta)),

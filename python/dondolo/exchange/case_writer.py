@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import argument_error, as_path, instance_of
-from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import properties
 from dondolo.analysis.stripe_runs import Study
@@ -101,7 +100,8 @@ def wall_settings(wall: Wall) -> dict[str, dict[str, Any]]:
     values = {name: _plain(value) for name, value in known.items() if name in own}
     groups = {"wall": {"name": wall.name, "mechanism": wall.mechanism} | values}
     if wall.building is not None:
-        groups["building"] = {name: _plain(value) for name, value in known.items() if name in BUILDING_NAMES}
+        given = wall.building._values()
+        groups["building"] = {name: _plain(value) for name, value in given.items() if value is not None}
     return groups
 
 

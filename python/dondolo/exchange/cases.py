@@ -14,14 +14,17 @@ from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, as_text, receive, warn_of_notes
 from dondolo._fortran.records import levels_in_words, unpack_records
 from dondolo._fortran.walls import rows_of, unpack_walls
+from dondolo._storage.run_file import RunFile
 from dondolo.analysis.stripe_fits import States
+from dondolo.checks.ntc import UltimateState
+from dondolo.exchange.case_checks import check_options, site_of
 from dondolo.exchange.case_text import Settings
 from dondolo.records.codes import Site
 from dondolo.records.record import Record, as_records, record_from
 from dondolo.records.record_set import RecordSet
 from dondolo.records.suite import upload
-from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
+from dondolo.walls.wall_columns import WallColumns
 
 # What a case has of a parcel as it is
 _WORDS = ("task", "title", "output", "im", "polarity", "engine", "states")
@@ -60,6 +63,12 @@ class Case(Shown):
         Hazard of a check by NTC 2018.
     knowledge_factor, behaviour : float
         Factors of that check.
+    ultimate_state : str
+        Ultimate limit state that its verdict rests on.
+    friction : float or None
+        Coefficient of friction at the hinges, for that check.
+    building_period, building_damping : tuple of floats or None
+        Period and damping ratio of the building for the limit states, for that check.
     designs : bool
         Whether the walls are designs of one wall, each to be compared with the first.
     settings : mapping
@@ -90,6 +99,10 @@ class Case(Shown):
     site: Site | None = None
     knowledge_factor: float = 1.35
     behaviour: float = 2.0
+    ultimate_state: UltimateState = "SLV"
+    friction: float | None = None
+    building_period: tuple[float, ...] | None = None
+    building_damping: tuple[float, ...] | None = None
     designs: bool = False
     settings: Settings
 
@@ -196,19 +209,11 @@ def case_of(parcel: Parcel, given: tuple[Record, ...] | None = None) -> Case:
     values: dict[str, Any] = {name: parcel[name] for name in (*_WORDS, *_NUMBERS)}
     values |= {name: bool(parcel[name]) for name in ("estimate_error", "certify", "designs")}
     values |= {name: parcel[name].copy() for name in ("levels", "edp_thresholds")}
-    if "soil" in parcel.names:
-        hazard = (parcel[name].tolist() for name in ("ag", "f0", "tc_star"))
-        numbers = (one if len(one) > 1 else one[0] for one in hazard)
-        values |= {name: parcel[name] for name in ("knowledge_factor", "behaviour")}
-        life, exceedance = parcel["reference_life"], parcel["exceedance"].tolist()
-        values["site"] = Site(
-            *numbers,
-            soil=parcel["soil"],
-            topography=parcel["topography"],
-            reference_life=life or None,
-            exceedance=exceedance or None,
-        )
-    walls = tuple(wall_from(data) for data in unpack_walls(parcel))
+    settings = json.loads(parcel["settings"])["settings"]
+    if "check" in settings:
+        values |= check_options(settings["check"])
+        values["site"] = site_of(RunFile(version="", settings=settings))
+    walls = WallColumns.of_data(unpack_walls(parcel))
     records = given or tuple(record_from(data) for data in unpack_records(parcel))
     warn_of_notes(parcel["notes"])
     return Case(
@@ -216,5 +221,5 @@ def case_of(parcel: Parcel, given: tuple[Record, ...] | None = None) -> Case:
         population=Population(walls, **rows_of(parcel)),
         records=records,
         record_index=parcel["record"] - 1,
-        settings=json.loads(parcel["settings"])["settings"],
+        settings=settings,
     )

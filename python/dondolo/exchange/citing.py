@@ -21,7 +21,7 @@ from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall
 
-# Methods that results are made by, in the words of dondolo_base_references
+# Methods that results are made by, in the words of dondolo_files_references
 _METHODS: dict[type, str] = {
     Cloud: "cloud",
     CodeCheck: "check",
@@ -79,7 +79,7 @@ def cite(*results: Any) -> Citation:
 
 
 def words_of(*things: Any) -> list[str]:
-    """What results have used, in the words of dondolo_base_references, each once."""
+    """What results have used, in the words of dondolo_files_references, each once."""
     return list(dict.fromkeys(_words(things, set())))
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import math
-import operator
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -13,8 +12,9 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
-from dondolo._fortran.files import DEGREES, INTEGER, REAL, TEXT, Column
+from dondolo._fortran.files import INTEGER, REAL, TEXT, Column
 from dondolo._storage.columns import Columns
+from dondolo._storage.kinds import kind_of
 from dondolo._storage.run_file import RunFile, described, run_of
 from dondolo._storage.tables import digits, unguarded
 from dondolo.errors import InputError, MissingFileError
@@ -86,7 +86,7 @@ class ResultFile(Columns):
         """
         rows = lines[:-1] if lines and not lines[-1] else lines
         names, body = (rows[0].split(",") if rows else []), ",".join(rows[1:])
-        if any(sign in body for sign in "\"'\r") or not body or not all(rows):
+        if any(sign in body or sign in rows[0] for sign in "\"'\r") or not body or not all(rows):
             return {}
         if {row.count(",") for row in rows} != {len(names) - 1} or max(map(len, rows)) > csv.field_size_limit():
             return {}
@@ -115,14 +115,17 @@ class ResultFile(Columns):
         return dict(zip(names, columns, strict=True))
 
     def column(self, name: str) -> Column:
-        """A column as it is written: numbers where all cells are those that dondolo writes."""
-        cells = self.texts(name)
-        given = [cell for cell in cells if cell]
-        whole = [_WHOLE.fullmatch(cell) is not None for cell in given]
-        real = [digits(_number(cell)) == cell for cell in given]
-        if not given or not all(map(operator.or_, whole, real)):
+        """A column as it is written, of the kind that its name says."""
+        cells, kind = self.texts(name), kind_of(name)
+        if kind == TEXT:
             return Column(TEXT, cells)
-        kind = INTEGER if all(whole) else DEGREES if any(whole) else REAL
+        whole = [_WHOLE.fullmatch(cell) is not None for cell in cells]
+        for i, cell in enumerate(cells):
+            if cell and not whole[i] and digits(_number(cell)) != cell:
+                with self.reading():
+                    raise ValueError(f"{self.place(i)}: {name} = {cell!r}: must be a number as dondolo writes it")
+        if kind == REAL and any(whole):
+            kind = INTEGER
         return Column(kind, np.array([float(cell) if cell else np.nan for cell in cells]))
 
     def __contains__(self, name: str) -> bool:

@@ -22,6 +22,7 @@ from dondolo._fortran.walls import (
     WALL_WORDS,
     describe_wall,
     describe_walls,
+    is_note,
 )
 from dondolo._storage.columns import Columns
 from dondolo._storage.result_set import write_set
@@ -46,10 +47,11 @@ from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
 from dondolo.retrofit.designs import DesignComparison
-from dondolo.walls.mechanisms import MECHANISMS, wall_from
+from dondolo.walls.mechanisms import MECHANISMS
 from dondolo.walls.population import Population
 from dondolo.walls.table import numbered
 from dondolo.walls.wall import Wall
+from dondolo.walls.wall_columns import WallColumns
 
 # What only some populations have
 _UNIONS, _TIES, _DESIGNS = "_unions.csv", "_ties.csv", "_designs.csv"
@@ -306,26 +308,26 @@ def _population(table: Columns, gravity: float) -> Population:
     walls = _walls(table, rows, gravity)
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
     columns = {"facades": "facade", "occurrence": "occurrence", "alternatives": "alternative"}
-    more = {name: tuple(table.texts(column)) for name, column in columns.items() if column in table}
-    return Population(walls, weights, groups=tuple(table.texts("group")), p_occ=p_occ, **more)
+    more: dict[str, Any] = {name: table.texts(column) for name, column in columns.items() if column in table}
+    more["notes"] = {name: table.texts(name) for name in table if is_note(name)}
+    return Population(walls, weights, group_names=tuple(table.texts("group")), p_occ=p_occ, **more)
 
 
-def _walls(table: Columns, rows: Sequence[dict[str, Any]], gravity: float) -> tuple[Wall, ...]:
+def _walls(table: Columns, rows: Sequence[dict[str, Any]], gravity: float) -> Sequence[Wall]:
     """Walls of their properties, all at once; a row that is wrong is found one by one."""
     words = dict.fromkeys(word for given in rows for word in given)
     try:
-        data = describe_walls(
-            len(rows), {word: [one.get(word) for one in rows] for word in words}, [gravity] * len(rows)
+        return WallColumns.of_data(
+            describe_walls(len(rows), {word: [one.get(word) for one in rows] for word in words}, [gravity] * len(rows))
         )
     except InputError:
-        data = []
         for i, given in enumerate(rows):
             try:
                 one_of("mechanism", given["mechanism"], MECHANISMS)
-                data.append(describe_wall(given, gravity))
+                describe_wall(given, gravity)
             except (TypeError, ValueError) as error:
                 raise ValueError(f"{table.place(i)}: {error}") from error
-    return tuple(wall_from(one) for one in data)
+        raise
 
 
 def _list(table: Columns, column: str, i: int) -> list[Any]:

@@ -117,7 +117,7 @@ def _unions(typology: Typology, table: Columns, walls: Sequence[tuple[str, int]]
     curves = {}
     for i, ((name, first), data) in enumerate(zip(walls, fit_curves(typology.levels, reached, histories), strict=True)):
         edp = table.number("edp_threshold", first)
-        origin = {"im": typology.im, "edp_threshold": edp, "saturation": ends[name]}
+        origin = {"im": typology.im, "edp_threshold": edp, "upper_asymptote": ends[name]}
         curve = curve_of(data, typology.levels, reached[i], histories[i], **origin)
         curves[name] = with_errors(curve, errors_of_row(table, first)) if curve.has_fit else curve
     return curves
@@ -132,7 +132,7 @@ def _of_walls(typology: Typology, rows: Sequence[Errors], unions: Columns | None
         if is_row:
             continue
         if number == 1:
-            # One mechanism that may not occur has the curve of its row, and a saturation.
+            # One mechanism that may not occur has the curve of its row, and an upper asymptote.
             found.append(rows[row])
         elif unions is None or "independent_errors" not in unions:
             found.append(no_errors("given", 0))

@@ -47,6 +47,7 @@ MECHANISMS: dict[str, tuple[str, Any]] = {
     "two_block": (ORANGE, "-."),
     "free_standing": (GREEN, ":"),
     "tabulated": (PURPLE, (0, (5, 1, 1, 1, 1, 1))),
+    "chain": (BLACK, (0, (8, 2))),
     "all": (RED, "-"),
 }
 
@@ -58,6 +59,7 @@ _NAMES = {
     "two_block": _("two-block"),
     "free_standing": _("free-standing"),
     "tabulated": _("tabulated"),
+    "chain": _("chain of bodies"),
     "all": _("all mechanisms"),
 }
 # Periods in the names of measures

@@ -36,16 +36,16 @@ from dondolo._base.arguments import (
     increasing,
     shaped,
 )
-from dondolo._base.files import as_file, described
+from dondolo._base.files import as_file, as_files, described
 from dondolo._base.shown import Shown
 from dondolo._fortran.histories import warnings_of_levels
 from dondolo._fortran.library import warn
-from dondolo._fortran.records import describe_measure, levels_in_words, unit_of
+from dondolo._fortran.records import describe_measure, levels_in_words
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
 from dondolo.hazard.frequencies import checked_fractiles, checked_frequencies
-from dondolo.hazard.hazard_table import FRACTILE, read_hazard
+from dondolo.hazard.hazard_table import FRACTILE, comment_of_unit, read_hazard, states_unit
 from dondolo.hazard.openquake import Site, read_curves, write_curves
 from dondolo.hazard.smoothing import monotone_cubics
 
@@ -226,7 +226,9 @@ class HazardCurve(Shown, Saved):
             curve = cls(levels, frequency, im=im, fractiles=fractiles, source=source, rigid_ground=is_rigid)
         except InputError as error:
             raise error.placed(str(name)) from None
-        warn([*notes, *(one.placed(f"{name}: ") for one in warnings_of_levels(curve.im, curve.levels))])
+        # The unit of what dondolo has written is known.
+        doubts = [] if states_unit(name, curve.im) else warnings_of_levels(curve.im, curve.levels)
+        warn([*notes, *(one.placed(f"{name}: ") for one in doubts)])
         return curve
 
     @classmethod
@@ -235,8 +237,9 @@ class HazardCurve(Shown, Saved):
         paths: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
         *,
         site: Site | None = None,
+        im: str | None = None,
     ) -> HazardCurve:
-        """Read a hazard curve that the OpenQuake engine has exported.
+        """Read a hazard curve that the OpenQuake engine has exported; `read_site_hazards` reads those of all sites.
 
         Parameters
         ----------
@@ -246,6 +249,8 @@ class HazardCurve(Shown, Saved):
         site : int or (float, float), optional
             Number of the site in the files, from 0, or its longitude and latitude [degrees], to 0.001 degrees; may be
             left out where there is one.
+        im : str, optional
+            Measure of files whose imt is AvgSA, such as 'saavg(0.2:2)'.
 
         Returns
         -------
@@ -277,23 +282,23 @@ class HazardCurve(Shown, Saved):
         >>> round(float(dd.HazardCurve.from_openquake(files)(0.5)), 5)
         0.001
         """
-        several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
-        if not isinstance(several, Iterable):
-            raise argument_error(
-                "wrong_type", "paths", f" = {paths!r}: must be the path of a file, or a sequence of them"
-            )
-        files = [os.fspath(as_file("paths", one)) for one in several]
-        im, levels, mean, fractiles, notes = read_curves(files, site)
+        files = as_files("paths", paths)
+        measure, levels, mean, fractiles, notes = read_curves(files, site, im)
         source = [*map(described, files), *map(str, notes)]
         try:
-            curve = cls(levels, mean, im=im, fractiles=fractiles, source=source)
+            curve = cls(levels, mean, im=measure, fractiles=fractiles, source=source)
         except InputError as error:
             raise error.placed(str(files[0])) from None
         warn(notes)
         return curve
 
     def to_openquake(
-        self, folder: str | os.PathLike[str], *, site: tuple[float, float], investigation_time: float = 50.0
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        site: tuple[float, float],
+        investigation_time: float = 50.0,
+        imt: str | None = None,
     ) -> list[str]:
         """Write the curve as the OpenQuake engine exports it: a file for the mean, and one for each fractile.
 
@@ -305,6 +310,8 @@ class HazardCurve(Shown, Saved):
             Longitude and latitude [degrees].
         investigation_time : float
             For which probabilities of exceedance are given [years].
+        imt : str, optional
+            OpenQuake's name of the measure saavg(T1:T2), 'AvgSA' or 'AvgSA(T)'; left out for others.
 
         Returns
         -------
@@ -322,7 +329,7 @@ class HazardCurve(Shown, Saved):
         if not 0.0 < time < np.inf:
             raise argument_error("out_of_range", "investigation_time", f" = {time:g}: must be positive")
         curves = {"mean": self.annual_frequency, **{f"quantile-{q:g}": h for q, h in self.fractiles.items()}}
-        return write_curves(folder, self.im, self.levels, curves, site, time)
+        return write_curves(folder, self.im, self.levels, curves, site, time, imt)
 
     def __call__(self, x: ArrayLike) -> Any:
         """Annual frequency with which intensities are exceeded.
@@ -480,8 +487,7 @@ class HazardCurve(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the curve as `from_csv` reads it."""
-        comments = [f"unit of {self.im}: {unit_of(self.im) or '1'}, of annual_frequency: 1/year"]
-        tables.write_csv(path, self._table(), comments)
+        tables.write_csv(path, self._table(), [comment_of_unit(self.im)])
 
     def _table(self) -> tables.Table:
         fractiles = {f"{FRACTILE}{q!r}": h for q, h in self.fractiles.items()}

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.files import read_text
 from dondolo._fortran.library import constants
-from dondolo._fortran.records import describe_measure, read_number_table
+from dondolo._fortran.records import describe_measure, read_number_table, unit_of
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.hazard.printed import levelled, note_of
 
@@ -62,6 +63,17 @@ def read_hazard(
         text = "ag is taken for the PGA; that of rigid ground must be multiplied by the factors of soil and topography"
         notes.append(DondoloWarning(f"{subject['file']}: {text}", "hazard_of_rigid_ground", subject))
     return im, levels, frequency, fractiles, notes, is_rigid
+
+
+def comment_of_unit(im: str) -> str:
+    """The comment in which a table of dondolo states the unit of its levels."""
+    return f"unit of {im}: {unit_of(im) or '1'}, of annual_frequency: 1/year"
+
+
+def states_unit(path: str | os.PathLike[str], im: str) -> bool:
+    """Whether a table was written by dondolo, with the unit of its levels."""
+    comments = [line[1:].strip() for line in read_text(path).splitlines() if line.startswith("#")]
+    return bool(comments) and comments[0].startswith("dondolo ") and comment_of_unit(im) in comments
 
 
 def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray, dict[str, FloatArray], list[str]]:

@@ -27,6 +27,8 @@ def levelled(values: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     ndarray of bool, shape (n,)
         Which values were raised.
     """
+    if not np.any(values[1:] > values[:-1]):
+        return values.copy(), np.zeros(len(values), dtype=bool)
     units = _units_of_last_digit(values)
     found = values.copy()
     for i in range(len(values) - 2, -1, -1):

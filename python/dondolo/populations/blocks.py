@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -68,7 +68,7 @@ class Shared(NamedTuple):
     request: Request
     states: FloatArray
 
-    def run(self, walls: tuple[Wall, ...], first: int) -> Part:
+    def run(self, walls: Sequence[Wall], first: int) -> Part:
         """Run consecutive rows of the population, the first of which has a number, from 0."""
         start = time.perf_counter()
         study, people = self.request._study, upload_walls(walls)

@@ -15,6 +15,7 @@ from dondolo.curves.occurrence import saturations, wall_probability
 from dondolo.curves.sample import given_labels
 from dondolo.populations.flags import Flags
 from dondolo.walls.population import Population
+from dondolo.walls.wall import properties_of
 
 # Numbers that are held at a time: samples x walls, and samples x rows of a chunk x levels
 _DRAWS = 4_000_000
@@ -30,14 +31,14 @@ class TypologyBootstrap(Bootstrap):
     Attributes
     ----------
     theta, beta : ndarray, shape (samples,)
-        Parameters of the lognormal curve fitted to each mean fraction / saturation; NaN where a sample has no fit.
+        Parameters of the lognormal curve fitted to each mean fraction / upper_asymptote; NaN where a sample has no fit.
     status : ndarray of str, shape (samples,)
         What came of each fit; '' where it failed.
     levels : ndarray, shape (levels,)
         Levels of intensity.
     mean_fraction : ndarray, shape (samples, levels)
         Weighted mean of the walls' fractions of collapse; NaN where a sample has no wall that counts.
-    saturation : ndarray, shape (samples,)
+    upper_asymptote : ndarray, shape (samples,)
         Share of the weight in which any mechanism can occur.
     over : tuple of str
         What was drawn: 'records', 'walls' or both.
@@ -55,7 +56,7 @@ class TypologyBootstrap(Bootstrap):
 
     levels: FloatArray
     mean_fraction: FloatArray
-    saturation: FloatArray
+    upper_asymptote: FloatArray
     over: tuple[str, ...]
 
     @property
@@ -84,7 +85,7 @@ class TypologyBootstrap(Bootstrap):
         return low, high
 
     def _ends(self) -> FloatArray:
-        return self.saturation
+        return self.upper_asymptote
 
     def _facts(self) -> list[tuple[str, str]]:
         return [("drawn", " and ".join(self.over)), *super()._facts()]
@@ -124,7 +125,7 @@ def resample_population(
     flags: Flags,
     levels: FloatArray,
     n_resamples: int = 1000,
-    seed: int | np.random.Generator | None = 0,
+    rng: int | np.random.Generator | None = 0,
     over: str | Iterable[str] = _KINDS,
     mechanism: str | None = None,
     group: str = "",
@@ -138,7 +139,7 @@ def resample_population(
     kinds = (over,) if isinstance(over, str) or not isinstance(over, Iterable) else tuple(over)
     if not kinds or not all(kind in _KINDS for kind in kinds):
         raise argument_error("not_a_word", "over", f" = {over!r}: must name 'records', 'walls' or both")
-    n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(seed)
+    n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(rng)
     rows = _rows_of(population, mechanism, group)
     if rows.walls == 1 and "walls" in kinds:
         # Drawn from itself a wall would look certain.
@@ -155,11 +156,11 @@ def resample_population(
         _mean_fractions(rows, flags, records[start : start + size], "records" in kinds, draws)
         for start in range(0, n_resamples, size)
     ]
-    fraction, saturation = (np.concatenate(part) for part in zip(*parts, strict=True))
+    fraction, upper_asymptote = (np.concatenate(part) for part in zip(*parts, strict=True))
     counted = np.isfinite(fraction[:, 0])
     # Levels at which none of the drawn records runs count for nothing.
     histories = np.broadcast_to(_histories_behind(rows, flags) * flags.drawn(records), fraction.shape)
-    occurring = np.where(counted & (saturation > 0.0), saturation, 1.0)
+    occurring = np.where(counted & (upper_asymptote > 0.0), upper_asymptote, 1.0)
     share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
     theta, beta, status = fit_samples(levels, share * histories, histories)
     return TypologyBootstrap(
@@ -168,17 +169,18 @@ def resample_population(
         status=np.where(counted, status, ""),
         levels=levels,
         mean_fraction=fraction,
-        saturation=saturation,
+        upper_asymptote=upper_asymptote,
         over=tuple(kind for kind in _KINDS if kind in kinds),
     )
 
 
 def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows:
     """The rows of a curve, wall by wall."""
-    one_of("group", group, ("", *population.groups))
+    one_of("group", group, ("", *population.group_names))
     wall = np.searchsorted(population.first_rows, np.arange(len(population)), side="right") - 1
-    chosen = np.array([group in ("", own) for own in population.groups])
-    kinds = dict.fromkeys(own.mechanism for own, here in zip(population.walls, chosen, strict=True) if here)
+    chosen = np.array([group in ("", own) for own in population.group_names])
+    mechanisms = properties_of(population.walls, "mechanism")
+    kinds = dict.fromkeys(own for own, here in zip(mechanisms, chosen, strict=True) if here)
     _, wall[chosen] = np.unique(wall[chosen], return_inverse=True)
     walls = int(wall[chosen].max()) + 1
     weight, p_occ = population.weights, population.p_occ
@@ -186,7 +188,7 @@ def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows
         row = np.flatnonzero(chosen)
         return _Rows(row, wall[row], walls, weight[row], p_occ[row], population.alternative_numbers[row])
     one_of("mechanism", mechanism, (*kinds, "all"))
-    row = np.flatnonzero(chosen & np.array([own.mechanism == mechanism for own in population.walls]))
+    row = np.flatnonzero(chosen & (np.array(mechanisms) == mechanism))
     weights, share, alternative, first = population._of_one_mechanism(row)
     number = np.diff(first, append=len(row))
     return _Rows(row, wall[row], walls, np.repeat(weights, number), share, alternative)

@@ -21,9 +21,10 @@ from dondolo.populations.curve import Group, IntArray, flat_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.typology import Typology
 from dondolo.walls.population import Population
+from dondolo.walls.wall import properties_of
 
 # What Fortran says of a curve of the population
-_OF_GROUP = ("group", "mechanism", "n_walls", "weight", "beta_walls", "beta_records", "fitted", "saturation")
+_OF_GROUP = ("group", "mechanism", "n_walls", "weight", "beta_walls", "beta_records", "fitted", "upper_asymptote")
 
 
 def combine(
@@ -72,8 +73,8 @@ def combine_rows(
     """The curves of the last state; without flags they have naive standard errors, and there are no unions."""
     names = b"".join(
         as_text("name", name) + b"\n"
-        for wall, whole in zip(people.walls, people.wholes, strict=True)
-        for name in (wall.name, whole)
+        for both in zip(properties_of(people.walls, "name"), people.wholes, strict=True)
+        for name in both
     )
     flat = flat_population(people, levels, exceedances[-1].T, histories)
     parcel = fit_population(names, flat, None if flags is None else flags._flat(), are_alternatives)
@@ -129,11 +130,11 @@ class _Made:
         return with_errors(curve, errors._replace(parts=parts))
 
     def _share(
-        self, found: FittedCurve, fraction: FloatArray, histories: FloatArray, saturation: float, **more: Any
+        self, found: FittedCurve, fraction: FloatArray, histories: FloatArray, upper_asymptote: float, **more: Any
     ) -> Fragility:
         """A curve of the share of what can collapse."""
-        share = np.minimum(fraction / saturation, 1.0) if saturation > 0.0 else fraction
-        return self._curve(found, histories * share, histories, saturation=saturation, **more)
+        share = np.minimum(fraction / upper_asymptote, 1.0) if upper_asymptote > 0.0 else fraction
+        return self._curve(found, histories * share, histories, upper_asymptote=upper_asymptote, **more)
 
     def _parts(self, prefix: str) -> Iterator[tuple[Clusters, ...]]:
         """Clusters of the curves of a prefix: records and, if there are several, walls."""
@@ -165,10 +166,10 @@ class _Made:
     def walls(self, people: Population, rows: tuple[Fragility, ...]) -> dict[str, Fragility]:
         """Curves of the walls by their names: that of a row, or of several mechanisms."""
         found, parcel = fitted_curves(self._parcel, "wall_"), self._parcel
-        columns = [parcel["wall_" + name] for name in ("fraction", "histories", "saturation")]
+        columns = [parcel["wall_" + name] for name in ("fraction", "histories", "upper_asymptote")]
         return {
-            people.wholes[first]: rows[first] if is_row else self._share(one, fraction, n, float(saturation))
-            for first, is_row, one, fraction, n, saturation in zip(
+            people.wholes[first]: rows[first] if is_row else self._share(one, fraction, n, float(upper_asymptote))
+            for first, is_row, one, fraction, n, upper_asymptote in zip(
                 people.first_rows.tolist(), people._has_curve_of_row.tolist(), found, *columns, strict=True
             )
         }
@@ -184,7 +185,7 @@ class _Made:
             one = {name: value.item() if isinstance(value, np.generic) else value for name, value in given.items()}
             if not one["fitted"] > 0.0:
                 one |= {"beta_walls": math.nan, "beta_records": math.nan}
-            fit = self._share(found, fraction, n, one["saturation"], parts=parts)
+            fit = self._share(found, fraction, n, one["upper_asymptote"], parts=parts)
             one |= {"mean_fraction": fraction, "mean_curve": mean_curve, "level_fractiles": fractiles}
             together.append(Group(**one, fit=fit))
         return tuple(together)
@@ -198,23 +199,23 @@ class _Made:
         columns = [self._parcel["union_" + name] for name in ("collapses", "histories", "change")]
         unions = {}
         for i, found, counts, n, change in zip(several, fitted_curves(self._parcel, "union_"), *columns, strict=True):
-            saturation = float(self._parcel["wall_saturation"][i])
+            upper_asymptote = float(self._parcel["wall_upper_asymptote"][i])
             self.counts[f"wall {people.wholes[first[i]]}"] = counts
-            counts = np.minimum(counts / (saturation or 1.0), n)
+            counts = np.minimum(counts / (upper_asymptote or 1.0), n)
             parts = (_clusters("records", self._labels, change[self._ran]),)
-            unions[people.wholes[first[i]]] = self._curve(found, counts, n, parts, saturation=saturation)
+            unions[people.wholes[first[i]]] = self._curve(found, counts, n, parts, upper_asymptote=upper_asymptote)
         return unions
 
     def means(self) -> dict[str, Fragility]:
         """Means of unions over the population and its groups."""
         if not self._parcel["unions"] or not self._parcel["mean_group"]:
             return {}
-        columns = [self._parcel["mean_" + name] for name in ("group", "union_fraction", "histories", "saturation")]
+        columns = [self._parcel["mean_" + name] for name in ("group", "union_fraction", "histories", "upper_asymptote")]
         self.counts |= {f"group {group}": fraction for group, fraction in zip(*columns[:2], strict=True)}
         found = zip(fitted_curves(self._parcel, "mean_"), *columns, self._parts("mean_"), strict=True)
         return {
-            group: self._share(one, fraction, n, float(saturation), parts=parts)
-            for one, group, fraction, n, saturation, parts in found
+            group: self._share(one, fraction, n, float(upper_asymptote), parts=parts)
+            for one, group, fraction, n, upper_asymptote, parts in found
         }
 
 

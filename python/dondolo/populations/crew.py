@@ -14,7 +14,7 @@ import pickle
 import socket
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from types import TracebackType
 from typing import Any, NamedTuple
@@ -128,7 +128,7 @@ class Crew:
         self._supplied: dict[str, int] = {}
         self.sends = 0
 
-    def run(self, walls: tuple[Wall, ...], blocks: Blocks) -> Iterator[tuple[int, int, Part]]:
+    def run(self, walls: Sequence[Wall], blocks: Blocks) -> Iterator[tuple[int, int, Part]]:
         """First wall and number of walls of each block that is finished, and what came of it.
 
         What is finished when something goes wrong comes before the exception.

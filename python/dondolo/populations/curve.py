@@ -26,6 +26,7 @@ from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.influence import changes
 from dondolo.walls.population import Population
+from dondolo.walls.wall import properties_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,8 +40,8 @@ def flat_population(people: Population, levels: FloatArray, counts: IntArray, hi
     """A population as Fortran takes it; counts are those of a damage state (rows, levels)."""
     words = (
         as_text("group", word)
-        for wall, group in zip(people.walls, people.groups, strict=True)
-        for word in (wall.mechanism, group)
+        for both in zip(properties_of(people.walls, "mechanism"), people.group_names, strict=True)
+        for word in both
     )
     return FlatPopulation(
         b"".join(word + b"\n" for word in words),
@@ -79,12 +80,12 @@ class Group(Saved):
         mean square of beta, over the walls with a curve; NaN if there are none.
     fitted : float
         Share of what can occur that has a curve.
-    saturation : float
+    upper_asymptote : float
         What the mean curve tends to: the share of the weight in which any mechanism can occur; 1 for one mechanism.
     fit : Fragility
-        The lognormal curve fitted to the mean fractions / saturation, that of the walls in which a mechanism can occur;
-        its standard errors are clustered by record and by wall. Its values are those for all walls: they tend to
-        the saturation, as the mean curve does.
+        The lognormal curve fitted to the mean fractions / upper asymptote, that of the walls in which a mechanism can
+        occur; its standard errors are clustered by record and by wall. Its values are those for all walls: they tend to
+        the upper asymptote, as the mean curve does.
     """
 
     group: str
@@ -97,7 +98,7 @@ class Group(Saved):
     beta_walls: float
     beta_records: float
     fitted: float
-    saturation: float
+    upper_asymptote: float
     fit: Fragility
 
     @property
@@ -153,9 +154,9 @@ class PopulationCurve(Shown, Group, MeanCurve):
         people = self._source.population
         chosen = people.weights > 0.0
         if self.group:
-            chosen &= np.array([name == self.group for name in people.groups])
+            chosen &= np.array([name == self.group for name in people.group_names])
         if self.mechanism != "all":
-            chosen &= (people.p_occ > 0.0) & np.array([wall.mechanism == self.mechanism for wall in people.walls])
+            chosen &= (people.p_occ > 0.0) & (np.array(properties_of(people.walls, "mechanism")) == self.mechanism)
         return chosen
 
     @functools.cached_property
@@ -236,7 +237,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
         self,
         *,
         n_resamples: int = 1000,
-        seed: int | np.random.Generator | None = 0,
+        rng: int | np.random.Generator | None = 0,
         over: str | Iterable[str] = ("records", "walls"),
         events: Sequence[Any] | None = None,
     ) -> TypologyBootstrap:
@@ -250,7 +251,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
         ----------
         n_resamples : int
             Number of samples.
-        seed : int, Generator or None
+        rng : int, Generator or None
             Of the random numbers; None: different every time.
         over : {'records', 'walls'} or both
             What is drawn. Of both, records alone where there is one wall.
@@ -281,12 +282,12 @@ class PopulationCurve(Shown, Group, MeanCurve):
             flags = Flags.of_counts(source.exceedances, source.histories)
         mechanism, group = self.mechanism, self.group
         return resample_population(
-            source.population, flags, self.levels, n_resamples, seed, over, mechanism, group, events
+            source.population, flags, self.levels, n_resamples, rng, over, mechanism, group, events
         )
 
     def _title(self) -> str:
         """Mechanism and group."""
-        grouped = any(self._source.population.groups)
+        grouped = any(self._source.population.group_names)
         group = say(", group {group}", group=self.group) if self.group else say(", population") if grouped else ""
         return style.mechanism_name(self.mechanism) + group
 

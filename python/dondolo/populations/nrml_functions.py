@@ -13,7 +13,7 @@ from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.fragility_model import Function
 from dondolo.curves.members import Members
-from dondolo.curves.straight_lines import Curves, in_order, straight_lines
+from dondolo.curves.straight_lines import Curves, few_straight_lines, in_order
 from dondolo.errors import silent
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
@@ -40,7 +40,7 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, Function]], 
         if isinstance(means, Fragility):
             functions[name] = {"collapse": means}
             continue
-        levels, raw = straight_lines(means, typology.levels)
+        levels, raw = few_straight_lines(means, typology.levels)
         ordered = in_order(raw)
         rising = np.maximum.accumulate(ordered, axis=1)
         functions[name] = {
@@ -85,10 +85,10 @@ def _parts(typology: Typology, states: list[Typology]) -> list[tuple[str, str, s
 
 def _single(typology: Typology, curves: list[Fragility]) -> Curves | Fragility:
     """The curves of one wall: a lognormal that tends to 1; functions with damage states, which may cross."""
-    if len(curves) == 1 and curves[0].has_fit and curves[0].saturation == 1.0:
+    if len(curves) == 1 and curves[0].has_fit and curves[0].upper_asymptote == 1.0:
         return curves[0]
-    share = np.array([one.saturation if one.has_fit else 1.0 for one in curves])
-    fractions = np.array([one.saturation * one.collapses / one.histories for one in curves])
+    share = np.array([one.upper_asymptote if one.has_fit else 1.0 for one in curves])
+    fractions = np.array([one.upper_asymptote * one.collapses / one.histories for one in curves])
     number = np.arange(len(curves))
     members = Members(
         typology.levels, curves, fractions.T, np.ones(len(curves)), share, number.astype(np.int32) * 0, number
@@ -101,10 +101,11 @@ def _single(typology: Typology, curves: list[Fragility]) -> Curves | Fragility:
 
 
 def taxonomy_of(text: str) -> str:
-    """A name as the format takes it."""
-    return re.sub(r"[^!$-&(-~]", "_", text)[:100]
+    """A name as the format takes it: accents and blanks stay."""
+    plain = "".join(sign if sign.isprintable() else " " for sign in re.sub("[#'\"]", "_", text))
+    return " ".join(plain.split())[:100].rstrip() or "_"
 
 
 def _state_name(edp: float) -> str:
-    """Name of a damage state: the format takes no point."""
+    """Name of a damage state: the format takes neither points nor other signs."""
     return f"edp_{edp!r}".removesuffix(".0").replace(".", "p").replace("+", "")

@@ -117,7 +117,7 @@ def draw_union(typology: Typology, name: str, ax: Axes | None, given: dict[str, 
         if curve.has_fit and not (is_alone and curve is product):
             ax.plot(grid, curve(grid), **options.look(**own, label=f"{word}: {parameters(curve)}"))
     if options.points:
-        fractions = union.saturation * union.collapses / union.histories
+        fractions = union.upper_asymptote * union.collapses / union.histories
         looks: dict[str, Any] = {"color": style.RED, "linestyle": "none", "marker": "o", "markersize": 4}
         ax.plot(union.levels, fractions, **looks, label=say("fractions of the same histories"))
     return curves.finish(ax, options, typology.im, grid[-1], name)
@@ -184,7 +184,7 @@ def _draw_union_states(
         union = typology.at(threshold).unions[name]
         text = say("EDP ≥ {threshold:g}: {words}", threshold=threshold, words=parameters(union))
         if options.points:
-            ax.plot(union.levels, union.saturation * union.collapses / union.histories, **marks)
+            ax.plot(union.levels, union.upper_asymptote * union.collapses / union.histories, **marks)
         shown = union(grid) if union.has_fit else np.full(len(grid), np.nan)
         ax.plot(grid, shown, **options.look(**look, label=text))
     return curves.finish(ax, options, typology.im, grid[-1], name, say("probability to reach the state"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,7 +47,7 @@ class RowCurves:
     record_formats: tuple[str, ...] = ()
 
     @property
-    def walls(self) -> tuple[Wall, ...]:
+    def walls(self) -> Sequence[Wall]:
         """The walls, one a row: the mechanisms of a wall stand one after the other."""
         return self.population.walls
 

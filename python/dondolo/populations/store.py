@@ -23,6 +23,7 @@ from dondolo.analysis.work import Work
 from dondolo.curves.sample import cluster_labels
 from dondolo.populations.flags import Flags
 from dondolo.records.record import Record
+from dondolo.records.suite import upload
 from dondolo.walls.ties import TieCounts
 
 IntArray = NDArray[np.int32]
@@ -116,8 +117,8 @@ def contents_of(parcel: Parcel, records: Iterable[Record], runs: FloatArray, wor
     complete, (_, states, levels) = histories > 0, reached.shape
     tied = TieCounts.of_walls(ties[complete].tolist(), levels, *parcel["tie_counts"].T, *parcel["elongations"].T)
     exceedances = np.ascontiguousarray(np.moveaxis(reached, 0, -1))
-    packed = parcel["flags"].view(np.uint8)[: parcel["flag_bytes"]]
-    events, checksums = zip(*((record.event, record.checksum) for record in records), strict=True)
-    labels = cluster_labels(len(events), events, checksums)
+    packed = parcel["flags"].view(np.uint8)[: int(parcel["flag_bytes"])]
+    several = tuple(records)
+    labels = cluster_labels(len(several), upload(several).events(), [record.checksum for record in several])
     flags = Flags(histories[complete], levels, states, runs, labels, packed)
     return Contents(complete, exceedances, tied, flags, work)

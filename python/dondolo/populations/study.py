@@ -95,7 +95,7 @@ def typology(
     --------
     >>> import dondolo as dd
     >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
-    >>> people = dd.Population(walls, groups=["old", "new"])
+    >>> people = dd.Population(walls, group_names=["old", "new"])
     >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
     >>> found = dd.typology(people, records, [0.6, 0.8, 1.0], edp_thresholds=[0.4], progress=False)
     >>> curve = found["all"]
@@ -111,7 +111,7 @@ def typology(
     states = states_of(edp_thresholds, limit)
     alone = len(states) == 1
     request = new_request(people.walls, records, levels, im, polarity, solver, threads, collapses_only=alone)
-    plan = request.plan()
+    plan = request.plan(states)
     names = b"".join(as_text("name", name) + b"\n" for name in people.wholes)
     of_occurrence = warnings_of_occurrence(names, people.p_occ, people.alternative_numbers, people._numbers_of_rows)
     with deferred(as_event(stop)) as interrupts:

@@ -18,6 +18,8 @@ from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import RunFile, sources_of_fits
 from dondolo.curves.table import flat, fragility_table
 from dondolo.walls.ties import tie_table
+from dondolo.walls.wall import properties_of
+from dondolo.walls.wall_columns import statics_of
 
 if TYPE_CHECKING:
     from dondolo.populations.typology import Typology
@@ -34,7 +36,7 @@ def tables_of(typology: Typology) -> dict[TableName, Callable[[], TableColumns]]
     found |= {
         "fragility": lambda: _curves_table(typology),
         "stripes": lambda: stripe_columns(
-            [(wall.name, wall.mechanism) for wall in typology.walls],
+            list(zip(*(properties_of(typology.walls, what) for what in ("name", "mechanism")), strict=True)),
             typology.im,
             typology.levels,
             typology.edp_thresholds,
@@ -64,7 +66,7 @@ def comments_of(typology: Typology) -> list[str]:
     """Lines above a table that is written alone."""
     counts = ", ".join(f"{name} = {count}" for name, count in typology.work._asdict().items())
     return [
-        *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in typology.walls)),
+        *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(statics_of(typology.walls, "gravity"))),
         f"unit of im_level and theta: {unit_of(typology.im) or '1'}",
         f"work: {counts}",
         *(f"warning: {sentence}" for sentence in typology.warnings),
@@ -80,7 +82,7 @@ def write_typology(
     confidence: float = np.nan,
 ) -> None:
     """Write all tables and some more, with the settings and the confidence of these."""
-    pulls = {wall.gravity for wall in typology.walls}
+    pulls = set(statics_of(typology.walls, "gravity"))
     if len(pulls) > 1:
         raise argument_error(
             "not_together",
@@ -116,6 +118,6 @@ def typology_table(typology: Typology) -> TableColumns:
         typology.im,
         typology.levels,
         [flat(one.fit) for one in groups],
-        [(one.weight, one.beta_walls, one.beta_records, one.saturation, one.fitted) for one in groups],
+        [(one.weight, one.beta_walls, one.beta_records, one.upper_asymptote, one.fitted) for one in groups],
         [np.array([one.mean_fraction, one.mean_curve, *one.level_fractiles]) for one in groups],
     )

@@ -17,7 +17,13 @@ from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.tables import TableColumns, plain, source_columns
-from dondolo._fortran.uncertainty import check_factor, published_factors, sensitivity, smallest_sample
+from dondolo._fortran.uncertainty import (
+    check_factor,
+    factor_parameters,
+    published_factors,
+    sensitivity,
+    smallest_sample,
+)
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -28,7 +34,7 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fitting import fit_fragility
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.table import flat
-from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, silent
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
@@ -36,7 +42,8 @@ from dondolo.populations.typology_tables import write_typology
 from dondolo.records.building import Building
 from dondolo.records.level_rows import lasting
 from dondolo.records.record import Record
-from dondolo.walls.distributions import Distribution, Uniform, no_distribution
+from dondolo.walls.distributions import Choice, Distribution, Normal, Uniform, no_distribution
+from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
 from dondolo.walls.sampling import draw, in_words, make_walls
 from dondolo.walls.wall import Wall, property_of, upload
@@ -49,10 +56,12 @@ if TYPE_CHECKING:
 # Shares at which one source alone is moved to its ends, and where it stays otherwise
 _ENDS = (0.05, 0.95)
 _MIDDLE = 0.5
+# The source that a published distribution may be named for
+_FACTOR = "restitution_factor"
 # Walls of a sample at most, as in a case
 _MOST = 10000
 # An outcome in doubt: twice the estimated error reaches the limit, or the error is such a share of it that the estimate
-# itself is lost, as src/dondolo/motion/common/response.f90 has it
+# itself is lost, as src/core/motion/common/response.f90 has it
 _SAFETY, _SATURATED = 2.0, 1e-2
 
 
@@ -237,7 +246,7 @@ class UncertainWall(tables.Tabular, Saved):
         return facts
 
 
-def uncertain_wall(
+def propagate_uncertainty(
     wall: Wall,
     records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
     levels: ArrayLike,
@@ -265,11 +274,13 @@ def uncertain_wall(
     records, levels, im, polarity, solver, threads, executor, progress, stop
         As for `typology`.
     sources : mapping of str to distribution
-        Numbers of the wall (restitution_factor, hinge, hinge_depth, density, thickness ...) and their distributions,
-        such as `Uniform`, `Triangular` or `Normal`. For restitution_factor the name of a published range:
-        'graziotti_2016', 0.84 to 0.90 times equation (4) for walls of two blocks with the model 'sorrentino', or
-        'elgawady_2010', 0.90 to 1.0 times Housner's value for free-standing blocks on a base of concrete or stone;
-        both are uniform distributions, and refused for other models.
+        Numbers of the wall (restitution_factor, hinge, hinge_depth, density, thickness ...), or wedge_angle, one angle
+        for all its wedges, and their distributions, such as `Uniform`, `Triangular` or `Normal`. For restitution_factor
+        the name of a published distribution:
+        'graziotti_2016', uniform, 0.84 to 0.90 times equation (4) for walls of two blocks with the model 'sorrentino';
+        for free-standing blocks, times Housner's value, 'colombo_2025' for stone, normal with mean 0.990 and standard
+        deviation 0.018, cut off on both sides where a speed ratio would reach 1, or 'elgawady_2010' for concrete,
+        uniform, 0.90 to 1.0. They are refused for other models.
     n_variants : int
         Walls of the sample, at most 10 000, and at least 2 + 6 k + k (k - 1) for k sources.
     seed : int
@@ -287,7 +298,7 @@ def uncertain_wall(
     DondoloError
         Fewer walls with a curve than the indices need: the levels do not reach up or down to their medians.
     Interrupted
-        Ctrl-C or `stop`.
+        Ctrl-C or `stop`; its `partial` is the typology of the variants that are complete.
 
     Warns
     -----
@@ -306,7 +317,7 @@ def uncertain_wall(
     >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
     >>> sources = {"restitution_factor": "graziotti_2016", "hinge": dd.distributions.Triangular(0.5, 0.6, 0.75)}
     >>> levels = [0.5, 1.0, 1.5, 2.0, 3.0]
-    >>> found = dd.uncertain_wall(wall, records, levels, sources=sources, n_variants=40, progress=False)
+    >>> found = dd.propagate_uncertainty(wall, records, levels, sources=sources, n_variants=40, progress=False)
     >>> found.sources
     ('restitution_factor', 'hinge')
     >>> bool(found.beta_total > found.beta_records)
@@ -315,12 +326,14 @@ def uncertain_wall(
     instance_of("wall", wall, Wall)
     known = _distributions(wall, sources)
     n, seed = as_count("n_variants", n_variants, smallest_sample(len(known)), _MOST), as_count("seed", seed, 0)
-    values = np.array(
-        [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
-    )
-    people = _variants(wall, known, draw(n, seed, known, {}), values)
-    if isinstance(name := sources.get("restitution_factor"), str):
-        check_factor(upload((people[n + 1],)), name)
+    if isinstance(name := sources.get(_FACTOR), str):
+        # Variants with the model's own speed ratios: what is published is a ratio to them
+        bare = _sampled(wall, known | {_FACTOR: Choice((1.0,))}, n, seed)[0]
+        check_factor(upload((bare[n + 1],)), name)
+        parameters = factor_parameters(upload(tuple(bare)), name)
+        if len(parameters) == 4:
+            known[_FACTOR] = Normal(*parameters[:2], low=parameters[2], high=parameters[3])
+    people, values = _sampled(wall, known, n, seed)
     several = lasting(records)
     found = typology(
         people,
@@ -334,20 +347,34 @@ def uncertain_wall(
         progress=progress,
         stop=stop,
     )
-    with silent():
-        middle = multiple_stripe(
-            people[n + 1],
-            several,
-            levels,
-            im=im,
-            polarity=polarity,
-            solver=solver,
-            estimate_error=True,
-            threads=threads,
-            progress=False,
-            stop=stop,
-        )
+    try:
+        with silent():
+            middle = multiple_stripe(
+                people[n + 1],
+                several,
+                levels,
+                im=im,
+                polarity=polarity,
+                solver=solver,
+                estimate_error=True,
+                threads=threads,
+                progress=False,
+                stop=stop,
+            )
+    except Interrupted as interrupted:
+        told = str(interrupted).removeprefix("interrupted: ")
+        raise Interrupted(
+            f"interrupted: {len(people)} of {len(people)} walls are complete; of the estimate of errors {told}", found
+        ) from None
     return _result(known, values, found, _numbers(middle))
+
+
+def _sampled(wall: Wall, known: Mapping[str, Distribution], n: int, seed: int) -> tuple[Population, FloatArray]:
+    """All walls that are run, and the values of the sources at their ends and medians."""
+    values = np.array(
+        [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
+    )
+    return _variants(wall, known, draw(n, seed, known, {}), values), values
 
 
 def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
@@ -361,6 +388,9 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
         for what in WALL_NUMBERS
         if what in type(wall).__dataclass_fields__ and what not in WALL_LISTS and what not in BUILDING_NAMES
     ]
+    if parts_of(wall, "wedges"):
+        # One angle for all wedges
+        own.append("wedge_angle")
     if wall.building is not None:
         own += _of_building(wall.building)
     found: dict[str, Distribution] = {}
@@ -369,11 +399,12 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
             raise argument_error("not_a_word", "sources", f": {what!r}: must be one of {', '.join(own)}")
         if isinstance(given, str):
             published = published_factors()
-            if what != "restitution_factor" or given not in published:
+            if what != _FACTOR or given not in published:
                 names = ", ".join(map(repr, published))
                 error = no_distribution(what, given)
                 raise InputError(f"{error}; names are for restitution_factor, {names}")
-            found[what] = Uniform(published[given].low, published[given].high)
+            tests = published[given]
+            found[what] = (Normal if tests.kind == "normal" else Uniform)(tests.first, tests.second)
         elif isinstance(given, Distribution):
             found[what] = given
         else:

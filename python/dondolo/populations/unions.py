@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def grouped(typology: Typology) -> list[Group]:
     """The curves of all mechanisms of groups that have a wall of several; none if there is one wall only."""
     walls = _walls(typology)
-    several = {typology.population.groups[first] for first, end in walls if end - first > 1}
+    several = {typology.population.group_names[first] for first, end in walls if end - first > 1}
     if len(walls) == 1 or not several:
         return []
     return [one for one in typology.groups if one.mechanism == "all" and (not one.group or one.group in several)]
@@ -39,10 +39,10 @@ def unions_table(typology: Typology) -> TableColumns:
         names.append(name)
         mechanisms.append(number)
         curves.append((flat(union), flat(product)))
-        counts.append(np.array([*counted, product.saturation * product.collapses / product.histories]))
+        counts.append(np.array([*counted, product.upper_asymptote * product.collapses / product.histories]))
 
     for name in typology.unions:
-        group, number = people.groups[people.wholes.index(name)], people.wholes.count(name)
+        group, number = people.group_names[people.wholes.index(name)], people.wholes.count(name)
         for state in states:
             union, found = state.unions[name], _counted(state)[f"wall {name}"]
             fraction = found / union.histories
@@ -69,7 +69,14 @@ def _walls(typology: Typology) -> list[tuple[int, int]]:
 
 def mean_curve(typology: Typology, group: Group, fraction: FloatArray) -> Fragility:
     """The lognormal fitted to mean fractions of the walls of a group, without a clustered error."""
-    histories, saturation = group.fit.histories, group.saturation
-    share = np.minimum(fraction / saturation, 1.0) if saturation > 0.0 else fraction
+    histories, upper_asymptote = group.fit.histories, group.upper_asymptote
+    share = np.minimum(fraction / upper_asymptote, 1.0) if upper_asymptote > 0.0 else fraction
     edp = float(typology.edp_thresholds[-1])
-    return fit(typology.levels, histories * share, histories, im=typology.im, edp_threshold=edp, saturation=saturation)
+    return fit(
+        typology.levels,
+        histories * share,
+        histories,
+        im=typology.im,
+        edp_threshold=edp,
+        upper_asymptote=upper_asymptote,
+    )

@@ -11,11 +11,11 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, wrong_type
+from dondolo._base.arguments import FloatArray, as_array, as_number, refuse_other_accelerations, wrong_type
 from dondolo._base.shown import html_of
 from dondolo._base.wording import decimal, say
 from dondolo._fortran import _core
-from dondolo._fortran.library import as_text, check
+from dondolo._fortran.library import as_text, check, check_characters
 from dondolo._fortran.records import RecordData
 from dondolo.errors import InputError
 from dondolo.records import suite
@@ -49,6 +49,8 @@ class Accelerogram:
         metadata: Mapping[str, str] = MappingProxyType({}),
         vertical: ArrayLike | None = None,
     ) -> None:
+        refuse_other_accelerations("acceleration", acceleration)
+        refuse_other_accelerations("vertical", vertical)
         values = as_array("acceleration", acceleration).copy()
         step = as_number("dt", dt)
         as_text("name", name)
@@ -63,6 +65,9 @@ class Accelerogram:
         if not isinstance(metadata, Mapping):
             raise wrong_type("metadata", metadata, "a mapping")
         known = {str(key): str(value) for key, value in metadata.items()}
+        for key, value in known.items():
+            check_characters("metadata", key)
+            check_characters(f"metadata[{key!r}]", value)
         self._hold(RecordData(name, step, values, peak, known, upwards), steps)
 
     def _hold(self, data: RecordData, processing: tuple[str, ...] = ()) -> None:

@@ -29,7 +29,7 @@ class Building:
 
     Parameters
     ----------
-    period : float or sequence of float
+    period : float or sequence of float, optional
         Periods of the modes of the building that the wall stands on [s].
     damping : float or sequence of float, optional
         Their damping ratios, or one for all; 0.05 if not given.
@@ -41,6 +41,8 @@ class Building:
         Height of the wall's floor above the ground, with storeys [m].
     building_height : float, optional
         Height of the building, with storeys [m].
+    top_displacement : float, optional
+        Displacement d of the top of the building under its weights applied sideways, instead of period: 2 sqrt(d) [m].
     level_top : float, optional
         Height above the ground up to which the building moves the wall, with storeys; that of the top of the wall or of
         the building if not given [m].
@@ -78,13 +80,14 @@ class Building:
     >>> parapet = dd.OneSidedWall(1.5, 0.25, building=house)
     """
 
-    period: Values
+    period: Values | None = None
     _: KW_ONLY
     damping: Values | None = None
     participation: Values | None = None
     storeys: int | None = None
     level: float | None = None
     building_height: float | None = None
+    top_displacement: float | None = None
     level_top: float | None = None
     participation_top: Values | None = None
     diaphragm_period: float | None = None
@@ -95,7 +98,7 @@ class Building:
     def __post_init__(self) -> None:
         values = building_values(vars(self))
         data = describe_building(values)
-        filled: dict[str, Any] = {"damping": data.damping, "_data": data}
+        filled: dict[str, Any] = {"period": data.period, "damping": data.damping, "_data": data}
         if values["diaphragm_period"] is not None:
             filled["diaphragm_damping"], filled["diaphragm_participation"] = data.diaphragm
         for name, value in (values | filled).items():
@@ -103,7 +106,13 @@ class Building:
 
     def _values(self) -> dict[str, Any]:
         """Its properties by their names."""
-        return {name: getattr(self, name) for name in BUILDING_NAMES}
+        derived = {"period"} if self.top_displacement is not None else set()
+        return {name: None if name in derived else getattr(self, name) for name in BUILDING_NAMES}
+
+    @property
+    def periods(self) -> tuple[float, ...]:
+        """Period of each mode [s], as given or of top_displacement."""
+        return self._understood.period
 
     @property
     def participations(self) -> tuple[float, ...]:
@@ -162,6 +171,7 @@ class Building:
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
         given = [(name, value) for name, value in self._values().items() if value is not None]
+        given += [("periods", self.periods)] * (self.top_displacement is not None)
         given += [("participations", self.participations)] * (self.participation is None)
         return [(name, _in_words(value)) for name, value in given]
 

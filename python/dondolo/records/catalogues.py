@@ -8,7 +8,7 @@ import re
 import zlib
 from collections.abc import Mapping
 from contextlib import suppress
-from itertools import count
+from itertools import count, product
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -36,6 +36,9 @@ _NAMED = re.compile(r"\d+_.*_([0-9a-f]{8})(?:_\d+)?\.txt")
 # Metadata that a file of columns states otherwise
 _STATED = ("format", "quantity", "units", "dt", "channel", "reading")
 
+#: Words of a refusal that columns, dt and units can mend
+_UNCLEAR = "a row of a catalogue must say"
+
 #: Metadata that stand in a catalogue, for its readers.
 _KEYS = ("event", "date", "station", "component", "magnitude")
 
@@ -46,6 +49,7 @@ class Catalogue(NamedTuple):
     path: Path
     records: int
     problems: list[str]
+    contradictions: list[str]
 
 
 def build_catalogue(
@@ -54,6 +58,7 @@ def build_catalogue(
     dt: float | None = None,
     units: str | None = None,
     vertical: bool = False,
+    layout: str | None = None,
 ) -> Catalogue:
     """Write a catalogue of all accelerogram files in a folder and the folders in it, one row per channel.
 
@@ -67,13 +72,16 @@ def build_catalogue(
     dt, units : optional
         Time step [s] and units for the files that do not state them.
     vertical : bool
-        Keep vertical components, which are left out otherwise. They are recognised by component, channel and axis in
-        the metadata, else by the file's name: UP, UD, DWN, VERT, HNZ, HGZ, or V or Z at its end.
+        Keep vertical components, which are left out otherwise. They are recognised by the metadata (component,
+        channel, axis and others), else by the file's name: docs/ground_motions.md.
+    layout : str, optional
+        What the columns of plain files are that do not say so, as `columns` of `read_records`.
 
     Returns
     -------
     Catalogue
-        Its path, its number of records, and one line for each file or channel that is left out, with the reason.
+        Its path, its number of records, one line for each file or channel that is left out, with the reason, and one
+        for each file that states another step or other units than are given: what it states counts.
 
     Raises
     ------
@@ -92,10 +100,10 @@ def build_catalogue(
     target = root / "catalogue.csv" if file is None else Path(file)
     if file is None and target.exists():
         raise InputError(f"{target}: already exists: to replace it, name it: -o {target}")
-    columns = ("file", "channel", "dt_s", "units", *_KEYS)
+    columns = ("file", "channel", "dt_s", "units", *(("columns",) if layout else ()), *_KEYS)
     check_replaced(target, "catalogue")
     table: dict[str, list[str]] = {column: [] for column in columns}
-    problems = []
+    problems, contradictions = [], []
     files = [path for path in sorted(root.rglob("*")) if path.is_file() and not _is_hidden(path, root)]
     for path in files:
         if path.resolve() == target.resolve():
@@ -105,12 +113,14 @@ def build_catalogue(
             place.encode()
             if is_search_result(path):
                 raise InputError(f"{path}: a list of search results of PEER, not an accelerogram")
-            records, given_units = _read(path, dt, units)
+            records, given = _read(path, dt, units, layout)
+            contradictions += _contradictions(path, dt, units, given)
         except UnicodeEncodeError:
             problems.append(f"{path}: a name that UTF-8 does not know")
             continue
         except InputError as error:
             options = " (options --dt and --units)" if "must be given" in str(error) else ""
+            options = " (option --columns)" if _UNCLEAR in str(error) and not layout else options
             problems.append(f"{error}{options}")
             continue
         for record in records:
@@ -123,14 +133,15 @@ def build_catalogue(
                 problems.append(f"{path}: a vertical component, by its {mark}")
                 continue
             row: tuple[str, ...] = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
-            row += (record.metadata.get("units", given_units),)
+            row += (record.metadata.get("units", given.units),)
+            row += (given.columns,) if layout else ()
             row += tuple(record.metadata.get(key, "") for key in _KEYS)
             for column, text in zip(columns, row, strict=True):
                 table[column].append(text)
     if not table["file"]:
         raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
     tables.write_lines(target, tables.csv_lines(table, [f"dondolo {constants().version}{_FOUND}"]))
-    return Catalogue(target, len(table["file"]), problems)
+    return Catalogue(target, len(table["file"]), problems, contradictions)
 
 
 def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
@@ -267,18 +278,38 @@ def _is_unchanged(file: Path, crc32: str, folder: Path) -> bool:
         return False
 
 
-def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:
-    """All channels of a file, and the units that it did not state."""
+class _Given(NamedTuple):
+    """What a file did not state, and was given."""
+
+    dt: float | None
+    units: str
+    columns: str
+
+
+def _read(path: Path, dt: float | None, units: str | None, layout: str | None) -> tuple[list[Record], _Given]:
+    """All channels of a file, and what it did not state."""
     # What a file states may not be given unless it agrees, so that each is tried without the other first
-    attempts = dict.fromkeys([(None, None), (None, units), (dt, None), (dt, units)])
-    for attempt in attempts:
+    attempts = dict.fromkeys(product((None, layout), (None, dt), (None, units)))
+    for what, step, unit in attempts:
         try:
-            return read_records(path, dt=attempt[0], units=attempt[1]), attempt[1] or ""
+            records = read_records(path, dt=step, units=unit, columns=what)
+            return records, _Given(step, unit or "", what or "")
         except InputError as error:
             reason = error
-            if attempt == (None, None) and "must be given" not in str(error):
+            if "must be given" not in str(error) and _UNCLEAR not in str(error):
                 break
     raise reason
+
+
+def _contradictions(path: Path, dt: float | None, units: str | None, given: _Given) -> list[str]:
+    """What a file states otherwise than it is given, by the rule of `read_records`; nothing if all is the same."""
+    if dt == given.dt and (units or "") == given.units:
+        return []
+    try:
+        read_records(path, dt=dt, units=units, columns=given.columns or None)
+    except InputError as error:
+        return [str(error)]
+    return []
 
 
 def _is_hidden(path: Path, root: Path) -> bool:

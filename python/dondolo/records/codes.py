@@ -26,9 +26,11 @@ from dondolo._fortran.checks import (
     STATES,
     CodeParameters,
     Modes,
+    SiteHazard,
     SiteInput,
     code_spectrum,
     ntc_parameters,
+    site_hazard,
     site_input,
 )
 from dondolo._storage.saved import part_of_results
@@ -39,6 +41,8 @@ from dondolo.records.target import TargetSpectrum
 Soil = Literal["A", "B", "C", "D", "E"]
 #: Classes of topography of NTC 2018
 Topography = Literal["T1", "T2", "T3", "T4"]
+#: Classes of use of NTC 2018
+UseClass = Literal["I", "II", "III", "IV"]
 #: Limit states of NTC 2018: damage, life safety, collapse
 LimitState = Literal["SLD", "SLV", "SLC"]
 
@@ -65,18 +69,25 @@ _EC8_SOILS = {
 }
 
 
+# What a check needs besides a site, and what it takes where that is not given
+CHECK_OPTIONS: dict[str, Any] = {
+    "knowledge_factor": 1.35, "behaviour": 2.0, "ultimate_state": "SLV", "friction": None,
+    "building_period": None, "building_damping": None,
+}  # fmt: skip
+
+
 @part_of_results
 @dataclass(frozen=True, repr=False)
 class Site(Shown):
-    """Hazard and ground of a site by NTC 2018.
+    """Hazard and ground of a site by NTC 2018: `ag`, `f0` and `tc_star`, or coordinates in Italy.
 
     Parameters
     ----------
-    ag : float or sequence of three floats
+    ag : float or sequence of three floats, optional
         Peak acceleration on rigid, level ground [g]: one for all limit states, or those of SLD, SLV and SLC.
-    f0 : float or sequence of three floats
+    f0 : float or sequence of three floats, optional
         Largest amplification on such ground, 2.2 to 5.
-    tc_star : float or sequence of three floats
+    tc_star : float or sequence of three floats, optional
         Period at which the constant velocity begins on such ground [s].
     soil : {'A', 'B', 'C', 'D', 'E'}
         Class of soil.
@@ -86,11 +97,17 @@ class Site(Shown):
         Reference period V_R [years], for return periods.
     exceedance : sequence of three floats, optional
         Probabilities of exceedance in that period of SLD, SLV and SLC, with reference_life.
+    latitude, longitude : float, optional
+        Of the site, in WGS84 [deg], with nominal_life and in place of ag, f0, tc_star, reference_life and exceedance.
+    nominal_life : float, optional
+        Nominal life V_N [years].
+    use_class : {'I', 'II', 'III', 'IV'}
+        Class of use, with its coefficient C_U.
 
     Raises
     ------
     InputError
-        Parameters that the code does not have.
+        Parameters that the code does not have; both values and coordinates; a place outside the grid of hazard.
 
     Examples
     --------
@@ -98,36 +115,58 @@ class Site(Shown):
     >>> site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
     >>> round(site.pga(), 12)
     0.24
+    >>> [f"{ag:.3f}" for ag in dd.Site(latitude=42.3498, longitude=13.3999, nominal_life=50).hazard.ag]
+    ['0.104', '0.261', '0.334']
     """
 
-    ag: float | Sequence[float]
-    f0: float | Sequence[float]
-    tc_star: float | Sequence[float]
+    ag: float | Sequence[float] | None = None
+    f0: float | Sequence[float] | None = None
+    tc_star: float | Sequence[float] | None = None
     _: KW_ONLY
     soil: Soil = "A"
     topography: Topography = "T1"
     reference_life: float | None = None
     exceedance: Sequence[float] | None = None
+    latitude: float | None = None
+    longitude: float | None = None
+    nominal_life: float | None = None
+    use_class: UseClass = "II"
 
     def __post_init__(self) -> None:
-        for name in ("ag", "f0", "tc_star"):
+        for name in ("ag", "f0", "tc_star", "reference_life", "exceedance", "latitude", "longitude", "nominal_life"):
             value = getattr(self, name)
-            several = tuple(as_array(name, value).tolist()) if np.ndim(value) else as_number(name, value)
-            object.__setattr__(self, name, several)
-        if self.reference_life is not None:
-            object.__setattr__(self, "reference_life", as_number("reference_life", self.reference_life))
-        if self.exceedance is not None:
-            object.__setattr__(self, "exceedance", tuple(as_array("exceedance", self.exceedance).tolist()))
+            if value is None:
+                continue
+            is_list = np.ndim(value) or name == "exceedance"
+            given = tuple(as_array(name, value).tolist()) if is_list else as_number(name, value)
+            object.__setattr__(self, name, given)
         self._parameters("SLV")
 
-    def _values(self, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> dict[str, Any]:
-        """Values of ``&check``: the site, and what a check needs besides; None for what is not given."""
-        factors = {"knowledge_factor": knowledge_factor, "behaviour": behaviour}
-        return {**vars(self), **{name: as_number(name, value) for name, value in factors.items()}}
+    @property
+    def hazard(self) -> SiteHazard:
+        """Hazard of the limit states, given or from the coordinates.
 
-    def _input(self, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> SiteInput:
+        `ag` [g], `f0` and `tc_star` [s] are tuples of SLD, SLV and SLC, or of one value for all; `reference_life` V_R,
+        `exceedance` P_VR and `return_periods` [years] are 0 and () if unknown. `mesh` is None without coordinates; else
+        it has the place in ED50 (`latitude`, `longitude`), and the `ids`, `latitudes`, `longitudes` and `distances`
+        [km] of the four nodes of the grid, with their `values`, shape (nodes, `grid_years`, parameters), and those of
+        the site, `tabulated`.
+        """
+        return site_hazard(self._input())
+
+    def _values(self, **options: Any) -> dict[str, Any]:
+        """Values of ``&check``: the site, and `CHECK_OPTIONS`; None for what is not given."""
+        words = {name: CHECK_OPTIONS[name] if value is None else value for name, value in options.items()}
+        numbers = {
+            name: tuple(as_array(name, value).tolist()) if np.ndim(value) else as_number(name, value)
+            for name, value in words.items()
+            if name != "ultimate_state" and value is not None
+        }
+        return {**vars(self), **CHECK_OPTIONS, **words, **numbers}
+
+    def _input(self, **options: Any) -> SiteInput:
         """The same as Fortran takes it."""
-        return site_input(self._values(knowledge_factor, behaviour))
+        return site_input(self._values(**options))
 
     def pga(self, *, limit_state: LimitState = "SLV") -> float:
         """Peak acceleration at the site a_g S [g] in a limit state."""
@@ -172,7 +211,7 @@ class Site(Shown):
         modes = NO_MODES
         if building is not None:
             own = building._understood
-            modes = Modes(*map(np.atleast_1d, (building.period, own.damping, own.participation)))
+            modes = Modes(*map(np.atleast_1d, (building.periods, own.damping, own.participation)))
             if not modes.damping.all():
                 raise argument_error(
                     "out_of_range", "damping", " = 0: must be positive for the spectrum of a floor of the code"
@@ -184,16 +223,20 @@ class Site(Shown):
         return ntc_parameters(self._input(), limit_state)
 
     def _facts(self) -> list[tuple[str, str]]:
+        hazard = self.hazard
+
         def words(values: Any) -> str:
-            return ", ".join(f"{value:g}" for value in np.atleast_1d(values))
+            # The grid has three decimals
+            return ", ".join(f"{value:.3f}" if hazard.mesh else f"{value:g}" for value in values)
 
         ground = f"soil {self.soil}, topography {self.topography}"
         return [
-            ("ag", f"{words(self.ag)} g"),
-            ("f0", words(self.f0)),
-            ("tc_star", f"{words(self.tc_star)} s"),
+            *([("place", f"{self.latitude:.9g}, {self.longitude:.9g}")] if hazard.mesh else []),
+            ("ag", f"{words(hazard.ag)} g"),
+            ("f0", words(hazard.f0)),
+            ("tc_star", f"{words(hazard.tc_star)} s"),
             ("ground", ground),
-            *([("V_R", f"{self.reference_life:g} years")] if self.reference_life else []),
+            *([("V_R", f"{hazard.reference_life:g} years")] if hazard.reference_life else []),
         ]
 
 

@@ -6,24 +6,10 @@ import re
 from pathlib import Path
 
 from dondolo.records.record import Record
-
-#: Words for a vertical component, and codes of channels that end in Z.
-_VERTICAL = re.compile(r"up|upx|ud\d?|\w*dwn|\w*\dup|vert|vertical[ei]?|[bcdehlms][nhgl]z")
-
-#: The same where no other word follows.
-_LAST = re.compile(r"[uvz]|az|dn|down|ver")
-
-#: Words for a horizontal component; a number is an azimuth.
-_HORIZONTAL = re.compile(r"[nsew]{1,2}[x\d]?|[xy]|[hlrt]\d?|[ns]\d+[ew]|\d{1,3}|[bcdehlms][nhgl][en\d]")
-
-#: Words that may follow and say nothing of the direction.
-_OTHER = re.compile(r"acc?|a|accel|acceleration|at2|asc|txt|csv|dat|c|d|cor|corr|corrected|deg")
+from dondolo.records.suite import component_of
 
 #: Words for other quantities than acceleration.
 _QUANTITY = re.compile(r"vt2|dt2|vel|velocity|dis|disp|displ|displacement")
-
-#: Inclinations of the format smc, and azimuths of cosmos, that are vertical.
-_CODES = (("smc", "inclination", ("0", "180")), ("cosmos", "azimuth", ("400", "401", "402")))
 
 
 def is_search_result(path: Path) -> bool:
@@ -40,31 +26,8 @@ def other_quantity(record: Record, path: Path) -> str:
 
 def vertical_mark(record: Record, path: Path) -> str:
     """What shows that a record is a vertical component: its metadata, else the name of its file; '' if nothing does."""
-    known = record.metadata
-    for layout, key, codes in _CODES:
-        if known.get("format") == layout and known.get(key) in codes:
-            return f"{key} {known[key]}"
-    for key in ("component", "channel", "axis"):
-        text = known.get(key, "")
-        found = _direction(text)
-        if found:
-            return f"{key} {text!r}" if found == "vertical" else ""
-    return f"name {path.name!r}" if _direction(path.name) == "vertical" else ""
-
-
-def _direction(text: str) -> str:
-    """'vertical', 'horizontal', or '' where a text does not say."""
-    words = [word for word in _words(text) if not _OTHER.fullmatch(word)]
-    if "column" in words:
-        return ""
-    if words and _LAST.fullmatch(words[-1]):
-        return "vertical"
-    for word in reversed(words):
-        if _VERTICAL.fullmatch(word):
-            return "vertical"
-        if _HORIZONTAL.fullmatch(word):
-            return "horizontal"
-    return ""
+    found = component_of(record.metadata, path.name)
+    return f"{found.key} {found.text!r}" if found.is_vertical else ""
 
 
 def _words(text: str) -> list[str]:

@@ -144,7 +144,7 @@ def draw_floor(
     if site is not None:
         code = site.spectrum(periods=t, damping=damping, building=building)
         ax.plot(t, code.sa, color=style.BLACK, linewidth=1.8, linestyle="--", label="floor, Circolare C7.2.3")
-    for period in np.atleast_1d(building.period):
+    for period in building.periods:
         ax.axvline(period, color=style.BLACK, linewidth=0.8, linestyle=":")
     return _finish(ax, t, options)
 

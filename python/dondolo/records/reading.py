@@ -20,6 +20,7 @@ def read_record(
     units: str | None = None,
     channel: str | int | None = None,
     format: str | None = None,
+    columns: str | None = None,
 ) -> Record:
     r"""Read one channel of an accelerogram file; the format is recognised by its content.
 
@@ -35,6 +36,10 @@ def read_record(
         Name of the channel or its number from 1, needed where the file has several. A name goes before a number.
     format : str, optional
         Name of the format, as docs/ground_motions.md lists them, needed where it is not recognised.
+    columns : str, optional
+        What plain columns are, where the file does not say so: 'time', 'acceleration' or 'other' for each of them, as
+        in 'time, acceleration', or 'rows' where values go along the rows. With units, and dt unless a column is one of
+        times, what stands above the values is passed over.
 
     Returns
     -------
@@ -57,7 +62,7 @@ def read_record(
     ('station', 1.961)
     """
     name = str(channel) if isinstance(channel, int) else channel
-    ((data,), _) = records_of_file(path, 0, dt, units, name, format)
+    ((data,), _) = records_of_file(path, 0, dt, units, name, format, columns)
     return record_from(data)
 
 
@@ -67,12 +72,13 @@ def read_records(
     dt: float | None = None,
     units: str | None = None,
     format: str | None = None,
+    columns: str | None = None,
 ) -> list[Record]:
     r"""Read all channels of an accelerogram file.
 
     Parameters
     ----------
-    path, dt, units, format
+    path, dt, units, format, columns
         As those of `read_record`.
 
     Returns
@@ -93,7 +99,7 @@ def read_records(
     >>> len(dd.read_records("station.txt", dt=0.01, units="g"))
     1
     """
-    return [record_from(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
+    return [record_from(data) for data in records_of_file(path, 2, dt, units, layout=format, columns=columns)[0]]
 
 
 def read_catalogue(
@@ -107,9 +113,9 @@ def read_catalogue(
     Parameters
     ----------
     path : path
-        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder. The
-        columns level and factor say which records run at which levels of intensity, and how they are scaled. All other
-        columns are metadata of the records.
+        A CSV table with the columns file, dt_s, units, channel, format and columns; files are relative to its folder.
+        The columns level and factor say which records run at which levels of intensity, and how they are scaled. All
+        other columns are metadata of the records.
     vertical : {'none', 'recorded'}
         'recorded': each record has the vertical component that the column vertical of the catalogue names.
     vertical_factor : float

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, argument_error, as_number, instance_of, one_of, wrong_type
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
-from dondolo._fortran.library import receive
+from dondolo._fortran.library import receive, within_name
 from dondolo._fortran.records import RecordData
 from dondolo._storage.saved import part_of_results
 from dondolo.records import processing as process
@@ -20,6 +20,7 @@ from dondolo.records.accelerogram import Accelerogram
 from dondolo.records.building import Building
 from dondolo.records.processing import Baseline
 from dondolo.records.rotation import RotD, over_directions, rotated
+from dondolo.records.suite import check_components
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -117,8 +118,8 @@ class Record(Accelerogram):
         Raises
         ------
         InputError
-            Another length; steps whose ratio is not one of integers up to 50; a factor that is not
-            finite.
+            Another length; steps whose ratio is not one of integers up to 50; stations, dates or events that differ; a
+            factor that is not finite.
 
         Notes
         -----
@@ -135,6 +136,7 @@ class Record(Accelerogram):
         values, dt, samples, steps = self.acceleration, self.dt, None, self.processing
         if vertical is not None:
             up = _as_record(vertical)
+            check_components(self, up)
             joined = receive(
                 _core.records.join_vertical(values, dt, up.acceleration, up.dt, as_number("factor", factor))
             )
@@ -337,7 +339,7 @@ class Record(Accelerogram):
         """
         instance_of("building", building, Building)
         values, upwards, parts = floor_motion(self.acceleration, self.vertical, self.dt, building._values())
-        return self.processed(values, f"on a floor of {building!r}", dt=self.dt / parts, vertical=upwards)
+        return self.processed(values, within_name(f"on a floor of {building!r}"), dt=self.dt / parts, vertical=upwards)
 
     def under(self, wall: Any, *, at: Literal["felt", "base", "top"] = "felt") -> Record:
         """The motion that moves a wall on a building under the record.
@@ -379,7 +381,7 @@ class Record(Accelerogram):
             raise argument_error("wrong_type", "wall", ": must be a wall with a building")
         values, upwards, parts = felt
         what = "felt by" if at == "felt" else f"at the {at} of"
-        return self.processed(values, f"{what} {wall!r}", dt=self.dt / parts, vertical=upwards)
+        return self.processed(values, within_name(f"{what} wall '{wall.name}'"), dt=self.dt / parts, vertical=upwards)
 
     def reverse(self) -> Record:
         """The record of the other polarity; its vertical component stays as it is.
@@ -416,8 +418,8 @@ class Record(Accelerogram):
         Raises
         ------
         InputError
-            Records that do not belong together (steps, lengths, stations or dates differ), a vertical component, an
-            angle that is not a number.
+            Records that do not belong together (steps, lengths, stations, dates or events differ), a vertical
+            component, an angle that is not a number.
         """
         return Record(**rotated(self, _as_record(other), angle))
 

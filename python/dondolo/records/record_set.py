@@ -340,7 +340,7 @@ class RecordSet(Shown, Saved):
         *,
         max_factor: float = 4.0,
         weight: float | None = None,
-        seed: int | np.random.Generator | None = 0,
+        rng: int | np.random.Generator | None = 0,
     ) -> Selection:
         """Select and scale records so that their spectra meet a target: its mean, or its mean and dispersion.
 
@@ -356,7 +356,7 @@ class RecordSet(Shown, Saved):
         weight : float, optional
             Weight of the dispersion against the mean, not negative; 1 if left out, and 0.1 for a target without
             dispersion.
-        seed : int, Generator or None
+        rng : int, Generator or None
             Of the spectra that are drawn from a target with a dispersion; None: different every time.
 
         Returns
@@ -385,7 +385,7 @@ class RecordSet(Shown, Saved):
         """
         from dondolo.records.selection import select_records
 
-        return select_records(self, target, n_records, max_factor=max_factor, weight=weight, seed=seed)
+        return select_records(self, target, n_records, max_factor=max_factor, weight=weight, rng=rng)
 
     def to_catalogue(self, path: str | os.PathLike[str]) -> None:
         """Write a catalogue that the executable and `read_catalogue` read, and the accelerograms beside it.

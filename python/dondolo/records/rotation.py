@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error, as_count, as_number
+from dondolo._fortran.library import within_name
 from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
 from dondolo.records.processing import SAME_STEP
-from dondolo.records.suite import check_motions
+from dondolo.records.suite import check_components, check_motions, component_of
 
 if TYPE_CHECKING:
     from dondolo.records.record import Record
-
-# How the formats write a component that is vertical, also after a station: UP, U-D, UD1, ICC-UP, HNZ (SEED)
-_VERTICAL = re.compile(r"(.*[-_ .])?[-+]?(U|D|UP|DN|DWN|DOWN|UD\d?|DU|Z|V|VRT|VER\w*|[A-Z][HLGMN]Z)", re.IGNORECASE)
 
 
 class RotD(NamedTuple):
@@ -60,11 +57,12 @@ def rotated(first: Record, second: Record, angle: float) -> dict[str, Any]:
     vertical = first.vertical
     if vertical is None or second.vertical is None or not np.array_equal(vertical, second.vertical):
         vertical = None
+    towards = f"component at {direction:g} degrees from '{first.name}' towards '{second.name}'"
     return {
         "acceleration": _component(first, second, direction),
         "dt": first.dt,
-        "name": f"{first.name} at {direction:g} degrees",
-        "processing": (*steps, f"component at {direction:g} degrees from '{first.name}' towards '{second.name}'"),
+        "name": within_name(f"{first.name} at {direction:g} degrees"),
+        "processing": tuple(map(within_name, (*steps, towards))),
         "metadata": {key: value for key, value in first.metadata.items() if (key, value) in shared},
         "vertical": vertical,
     }
@@ -109,18 +107,10 @@ def _check_components(first: Record, second: Record) -> None:
         raise InputError(
             f"components '{first.name}' and '{second.name}': dt = {first.dt:g} and {second.dt:g} s: must be the same"
         )
-    pairs = {
-        "station": (first.metadata.get("station", ""), second.metadata.get("station", "")),
-        "date": (first._labels.date, second._labels.date),
-    }
-    for key, (one, other) in pairs.items():
-        if one and other and one != other:
-            raise InputError(
-                f"components '{first.name}' and '{second.name}': {key} = '{one}' and '{other}': must be the same"
-            )
+    check_components(first, second)
     check_motions((first,))
     check_motions((second,))
     for record in (first, second):
-        component = record.metadata.get("component", "").strip()
-        if _VERTICAL.fullmatch(component):
-            raise InputError(f"record '{record.name}': component = '{component}': is vertical, must be horizontal")
+        found = component_of(record.metadata, record.name)
+        if found.is_vertical:
+            raise InputError(f"record '{record.name}': {found.key} = '{found.text}': is vertical, must be horizontal")

@@ -132,7 +132,7 @@ def select_records(
     *,
     max_factor: float = 4.0,
     weight: float | None = None,
-    seed: int | np.random.Generator | None = 0,
+    rng: int | np.random.Generator | None = 0,
 ) -> Selection:
     """Records that meet a target: see `RecordSet.select`."""
     instance_of("target", target, TargetSpectrum)
@@ -145,7 +145,7 @@ def select_records(
         raise argument_error("out_of_range", "max_factor", f" = {largest:g}: must be at least 1")
     if not 0.0 <= share < np.inf:
         raise argument_error("out_of_range", "weight", f" = {share:g}: must not be negative")
-    generator = as_generator(seed)
+    generator = as_generator(rng)
     check_motions(several)
     sa = RecordSet(several).spectra(target.periods, damping=target.damping)
     drawn = _draw(target, places, share, generator)

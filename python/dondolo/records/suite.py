@@ -20,7 +20,7 @@ _referred = weakref.ref.__call__
 
 
 # What metadata are asked for the labels of a record
-_LABELS = ("event", "station", "date", "event time", "event latitude", "event longitude")
+_LABELS = ("event", "station", "date", "stated date", "event time", "event latitude", "event longitude")
 
 
 class Labels(NamedTuple):
@@ -33,12 +33,23 @@ class Labels(NamedTuple):
     cluster : str
         Label of the records that depend on each other: the earthquake, else station and date.
     date : str
-        As ISO 8601 has it.
+        As ISO 8601 has it, or as it is stated where it is no day of the calendar.
     """
 
     earthquake: str
     cluster: str
     date: str
+
+
+class Component(NamedTuple):
+    """Which way a component points, whether it is vertical.
+
+    Key and text are those of the metadata that show it, or 'name' and the name; '' where nothing does.
+    """
+
+    key: str
+    text: str
+    is_vertical: bool
 
 
 class Motion(Protocol):
@@ -121,6 +132,10 @@ class Suite(Handle):
         """Whether these are its records, in their order."""
         return len(records) == len(self._members) and all(map(is_, map(_referred, self._members), records))
 
+    def events(self) -> tuple[str, ...]:
+        """Label of the cluster of each record, '' for none: its event, with the date where several have the name."""
+        return tuple(receive(_core.records.cluster_labels(self.number)).lines)
+
     def measure(self, im: str, threads: int) -> None:
         """Let Fortran measure its records, which keeps the values for all studies to come."""
         if im not in self._measured:
@@ -133,7 +148,7 @@ class Suite(Handle):
             moves_up = any(record.vertical is not None for record in records)
             self._facts = Facts(
                 tuple(record.name for record in records),
-                tuple(record.event for record in records),
+                self.events(),
                 tuple(record.checksum for record in records),
                 tuple(record.metadata.get("format", "") for record in records),
                 np.array([record.largest_fall for record in records]) if moves_up else None,
@@ -193,19 +208,41 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
 
 
 def labels_of(metadata: Mapping[str, str]) -> Labels:
-    """What metadata say of the earthquake of a record (dondolo_record_earthquake)."""
-    known = {key: _one_line(metadata[key]) for key in _LABELS if key in metadata}
+    """What metadata say of the earthquake of a record (dondolo_records_earthquake)."""
+    known = {key: metadata[key] for key in _LABELS if key in metadata}
     if not known:
         return Labels("", "", "")
-    text = "\n".join(line for pair in known.items() for line in pair).encode()
-    parcel = receive(_core.records.labels_of(text, len(known)))
+    parcel = receive(_core.records.labels_of(_lines(known), len(known)))
     return Labels(**parcel.named(Labels._fields))
 
 
-def _label_lines(record: Motion) -> tuple[str, str, str]:
+def component_of(metadata: Mapping[str, str], name: str) -> Component:
+    """Which way a component points, by its metadata, else by a name (dondolo_records_direction)."""
+    parcel = receive(_core.records.component_of(_lines(metadata), len(metadata), _one_line(name).encode() or b" "))
+    return Component(parcel["key"], parcel["text"], bool(parcel["is_vertical"]))
+
+
+def check_components(first: Motion, second: Motion) -> None:
+    """Refuse two records whose stations, days or earthquakes differ: they are no components of one motion."""
+    labels = (first.metadata, second.metadata)
+    parcel = receive(_core.records.difference_of(*(part for one in labels for part in (_lines(one), len(one)))))
+    if parcel["key"]:
+        raise InputError(
+            f"components '{first.name}' and '{second.name}': {parcel['key']} = '{parcel['one']}' and"
+            f" '{parcel['other']}': must be the same"
+        )
+
+
+def _lines(metadata: Mapping[str, str]) -> bytes:
+    """Metadata as Fortran takes them, keys and values in turn."""
+    return "\n".join(_one_line(text) for pair in metadata.items() for text in pair).encode() or b" "
+
+
+def _label_lines(record: Motion) -> tuple[str, ...]:
     """Labels of a record as a suite takes them."""
-    labels = record._labels
-    return labels.earthquake, _one_line(record.metadata.get("station", "")), labels.date
+    labels, component = record._labels, component_of(record.metadata, "")
+    station, form, motion = (_one_line(record.metadata.get(key, "")) for key in ("station", "format", "motion"))
+    return labels.earthquake, station, labels.date, form, motion, component.key, _one_line(component.text)
 
 
 def _one_line(text: str) -> str:

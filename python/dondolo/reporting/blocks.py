@@ -12,8 +12,8 @@ from dondolo.reporting.numerals import Numeral
 
 # Letters of symbols by their names in the sheet of a check
 _LETTERS = {
-    "alpha": "\N{GREEK SMALL LETTER ALPHA}", "gamma": "\N{GREEK SMALL LETTER GAMMA}", "eta": "η", "mu": "μ", "pi": "π",
-    "sigma": "\N{GREEK SMALL LETTER SIGMA}", "xi": "ξ", "zeta": "ζ",
+    "alpha": "\N{GREEK SMALL LETTER ALPHA}", "gamma": "\N{GREEK SMALL LETTER GAMMA}", "eta": "η", "kappa": "κ",
+    "lambda": "λ", "mu": "μ", "pi": "π", "sigma": "\N{GREEK SMALL LETTER SIGMA}", "xi": "ξ", "zeta": "ζ",
 }  # fmt: skip
 # What sentences that are said elsewhere are marked by for the catalogues
 _ = str
@@ -71,6 +71,13 @@ class Facts:
 
 
 @dataclass(frozen=True)
+class Stamp:
+    """Room for a stamp and a signature, with what it is for."""
+
+    text: str
+
+
+@dataclass(frozen=True)
 class CaptionedTable:
     """A table with its caption; `strong` rows at its end are sums."""
 
@@ -105,9 +112,10 @@ class Root:
 
 @dataclass(frozen=True)
 class Formula:
-    """Sides that are equal: in symbols, with the numbers put in, and the value."""
+    """Sides that are equal: in symbols, with the numbers put in, and the value; and its place in the code."""
 
     sides: tuple[Any, ...]
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -124,7 +132,7 @@ class Listing:
     text: str
 
 
-Block = Heading | Paragraph | Note | Facts | CaptionedTable | Picture | Formula | Annexes | Listing
+Block = Heading | Paragraph | Note | Facts | Stamp | CaptionedTable | Picture | Formula | Annexes | Listing
 
 
 def fields_of(blocks: Sequence[Block]) -> list[Field]:

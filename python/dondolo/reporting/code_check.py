@@ -11,13 +11,15 @@ from dondolo._base.wording import decimal, in_english, say
 from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
 from dondolo.checks.plots import check_name
+from dondolo.checks.side_by_side import Chance, side_by_side
 from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloWarning
 from dondolo.reporting import headings
 from dondolo.reporting.content import Piece, Symbol, Table, figure, pieces
 from dondolo.reporting.language import Language
-from dondolo.reporting.numerals import NONE, number, probability, whole
-from dondolo.reporting.relazione.terms import MEANINGS, warning
-from dondolo.reporting.units import UNITS, Unit, cell
+from dondolo.reporting.numerals import NONE, chance, number, probability, whole
+from dondolo.reporting.relazione.terms import BENDING, MEANINGS, warning
+from dondolo.reporting.units import UNITS, Unit, cell, quantity
 from dondolo.walls.ties import ties_without_anchor
 from dondolo.walls.wall import Wall
 
@@ -26,7 +28,7 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
     """Tables of the verdicts and of the sheet, and the lines of the check on the curve."""
     drawn = None
     chances: dict[tuple[str, str], float] = {}
-    if curve is not None and curve.has_fit and curve.im == "pga":
+    if curve is not None and curve.has_fit and curve.im == "pga" and check.verified is not None:
         chances = check.probabilities(curve)
         words = "; ".join(
             f"{_name(*key)} {decimal(probability(value).text)}"
@@ -35,29 +37,25 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
         )
         alt = say("Lines of the checks on the fragility curve. Probabilities: {words}.", words=words)
         drawn = figure(lambda: check.plot(curve=curve), alt)
-    kinematic = list(check.capacities)
-    dynamic = [key for key in check.verified if key[0] == "dynamic"]
+    lines = side_by_side(check, curve)
+    dynamic = [key for key in check._verified if key[0] == "dynamic"]
     verdicts = say("verdict")
     columns: dict[Piece, Sequence[Piece]] = {
-        say("check"): [_name(*key, ", ") for key in kinematic],
-        pieces("{ag}{s} of the site [g]", ag=Symbol("a", "g"), s=Symbol("S")): [
-            number(_site(check, state)) for _, state in kinematic
-        ],
-        say("withstands [g]"): [number(check._outcome(key, "capacity_pga")) for key in kinematic],
-        say("capacity / demand"): [number(check._outcome(key, "ratio"), 3) for key in kinematic],
-        verdicts: [say(check._verdict(key)) for key in kinematic],
+        say("check"): [_name(one.method, one.limit_state, ", ") for one in lines],
+        say("capacity of the wall"): [_amount(one.capacity, one.unit) for one in lines],
+        say("demand"): [_amount(one.demand, one.unit) for one in lines],
+        say("capacity / demand"): [number(one.ratio, 3) for one in lines],
+        pieces("{ag}{s} of the site [g]", ag=Symbol("a", "g"), s=Symbol("S")): [number(one.site_pga) for one in lines],
+        pieces("{ag}{s} allowed [g]", ag=Symbol("a", "g"), s=Symbol("S")): [number(one.allowed_pga) for one in lines],
+        verdicts: [_worded(check, (one.method, one.limit_state)) for one in lines],
     }
     if chances:
-        columns[say("P(collapse) at the site")] = [
-            probability(chances.get(("site", state), chances.get(("site", ""), np.nan))) for _, state in kinematic
-        ]
-        columns[say("at what it withstands")] = [
-            probability(np.nan if key in check.not_applicable else chances[key]) for key in kinematic
-        ]
+        columns[say("P(collapse) where allowed")] = [_chance(one.at_allowed) for one in lines]
+        columns[say("P(collapse) at the site")] = [_chance(one.at_site) for one in lines]
     histories: dict[Piece, Sequence[Piece]] = {say("limit state"): [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[say(head)] = [number(check.value(*key, name)) for key in dynamic]
-    histories[verdicts] = [say(check._verdict(key)) for key in dynamic]
+    histories[verdicts] = [_worded(check, key) for key in dynamic]
     return {
         "checks": Table.of(columns, (verdicts,)),
         "histories": Table.of(histories, (verdicts,)) if dynamic else None,
@@ -71,7 +69,10 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
 
 # What sentences that are said elsewhere are marked by for the catalogues
 _ = str
-_VERDICTS = (_("verified"), _("not verified"), _("not applicable"), _("verified if its ties are"))
+_VERDICTS = (
+    _("verified"), _("not verified"), _("not applicable"), _("verified if its ties are"),
+    _("verified if no hinge slides"),
+)  # fmt: skip
 _DYNAMIC = {
     "pga": _("PGA [g]"),
     "records": _("records"),
@@ -104,7 +105,8 @@ def code_checks(
     with_sheets : bool
         Whether each row has its calculation sheet, as designs and the mechanisms of a facade have.
     """
-    made = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
+    given = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
+    made = [(check, curve) for check, curve in given if check.verified is not None]
     columns: dict[Piece, Sequence[Piece]] = {say("wall"): [check.wall.name for check, _ in made]}
     for key in _KINEMATIC:
         columns[f"{_name(*key)} [g]"] = [number(check._outcome(key, "capacity_pga"), 3) for check, _ in made]
@@ -129,15 +131,21 @@ def code_checks(
         "checks": Table.of(columns),
         "held": held,
         "site": site,
+        "rests_on": _required(made[0][0]) if made else "",
+        "satisfied": sum(check.satisfied for check, _ in made),
+        "of": len(made),
+        "sliding": sum(bool(check.sliding) for check, _ in made),
         "open": sum(bool(check.open_ties) for check, _ in made),
+        "of_ground": sum(any(note.code == "ground_governs" for note in check.notes) for check, _ in made),
+        "raised": sum(check._has("mechanism", "", "knowledge_given") for check, _ in made),
         "left_out": len(checks) - len(made),
         "together": together,
-        "sheets": [(check.wall.name, _sheet(check)) for check, _ in made] if with_sheets else [],
+        "sheets": [(check.wall.name, _sheet(check)) for check, _ in given] if with_sheets else [],
     }
 
 
 # Numbers of the sheet that are 1 or 0
-_YES_OR_NO = ("applicable", "hierarchy", "plate_verified", "anchor_checked")
+_YES_OR_NO = ("free_element", "applicable", "required", "turns_first", "hierarchy", "plate_verified", "anchor_checked")
 # What is open of ties whose anchors are known
 _OPEN_TIES = {
     "hierarchy": _("hierarchy of strengths not respected, the anchor gives way before the bar yields"),
@@ -163,7 +171,13 @@ class Verdict(NamedTuple):
     reasons: tuple[str, ...]
 
 
-def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, without_soil: bool) -> Verdict | None:
+def verdict(
+    checks: Sequence[CodeCheck | None],
+    walls: Sequence[Wall],
+    warnings: Sequence[DondoloWarning],
+    *,
+    without_soil: bool,
+) -> Verdict | None:
     """The verdict on the walls of a report; None if nothing was checked and nothing is in doubt.
 
     Parameters
@@ -172,15 +186,22 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
         Of each wall; None for one that could not be checked.
     walls : sequence of Wall
         All walls of the report.
+    warnings : sequence of DondoloWarning
+        Of the run.
     without_soil : bool
         Whether the hazard of the annual frequency is without the factor of soil and topography.
     """
-    made = [check for check in checks if check is not None]
+    made = [check for check in checks if check is not None and check.verified is not None]
     missed, doubts = _failed(made), []
+    lifted = [check.wall for check in checks if check is not None and check.verified is None]
+    if lifted:
+        doubts.append(say("no spectrum at the level of the wall: {walls}", walls=_named(lifted, walls)))
     if made and len(made) < len(checks):
         doubts.append(say("not checked: {left} of {walls} walls", left=len(checks) - len(made), walls=len(checks)))
     if made and (loose := unchecked_anchors(walls)):
         doubts.append(say("anchors of the ties not checked: {walls}", walls=_named(loose, walls)))
+    if made and (bent := [one for one in warnings if one.code == BENDING]):
+        doubts.append(say("bending of strips before they open neglected: {wall}", wall=bent[0].subject["wall"]))
     if without_soil:
         doubts.append(say("the hazard is that of rigid, level ground, without the factor S of soil and topography"))
     if not made:
@@ -189,20 +210,35 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
         (f"{check.wall.name}, {_item(item)}", names) for check in made for item, names in check.open_ties.items()
     ):
         doubts += [f"{say(_OPEN_TIES[name])}: {item}" for name in names if name in _OPEN_TIES]
-    verdicts = [holds for check in made for key, holds in check.verified.items() if key not in check.not_applicable]
+    for check in made:
+        whose = f"{check.wall.name}, " if len(made) > 1 else ""
+        doubts += [say("a hinge slides before it turns: {hinge}", hinge=whose + _item(item)) for item in check.sliding]
+    verdicts = [check._verified[key] for check in made for key in check.required]
     if missed:
-        words = say(
-            "{failed} of {checks} checks by NTC 2018 not satisfied", failed=verdicts.count(False), checks=len(verdicts)
+        which = _required(made[0])
+        words = (
+            say("not satisfied by NTC 2018: the check that the verdict rests on ({which})", which=which)
+            if len(verdicts) == 1
+            else say(
+                "not satisfied by NTC 2018: {failed} of {checks} checks that the verdict rests on ({which})",
+                failed=verdicts.count(False),
+                checks=len(verdicts),
+                which=which,
+            )
         )
     elif doubts:
         # What is open may turn any of them: nothing is called satisfied.
         reasons = "; ".join(one.partition(":")[0] for one in doubts)
-        words = say("open: {reasons}; none of {checks} checks by NTC 2018 fails", reasons=reasons, checks=len(verdicts))
+        words = say(
+            "open: {reasons}; no check by NTC 2018 fails that the verdict rests on ({which})",
+            reasons=reasons,
+            which=_required(made[0]),
+        )
     else:
-        words = say("all {checks} checks by NTC 2018 satisfied", checks=len(verdicts))
-    index = min(made, key=lambda check: check.value("nonlinear", "SLV", "ratio"))
-    whose = f", {index.wall.name}" if len(made) > 1 else ""
-    words = f"{words[0].upper()}{words[1:]}; ζ_E {decimal(f'{_ratio(index):.3g}')} ({_name('nonlinear', 'SLV')}{whose})"
+        words = say("satisfied by NTC 2018: all that the verdict rests on ({which})", which=_required(made[0]))
+    index = min(made, key=lambda check: check.zeta_e)
+    whose = f" ({index.wall.name})" if len(made) > 1 else ""
+    words = f"{words[0].upper()}{words[1:]}; ζ_E {decimal(f'{index.zeta_e:.3g}')}{whose}"
     return Verdict("failed" if missed else "doubt" if doubts else "fine", words, (*missed, *doubts))
 
 
@@ -211,8 +247,17 @@ def unchecked_anchors(walls: Sequence[Wall]) -> list[Wall]:
     return [wall for wall in walls if ties_without_anchor(wall)]
 
 
-def _ratio(check: CodeCheck) -> float:
-    return check.value("nonlinear", "SLV", "ratio")
+def _required(check: CodeCheck) -> str:
+    """The checks that the verdict rests on."""
+    return ", ".join(_name(*key) for key in check.required)
+
+
+def _worded(check: CodeCheck, key: tuple[str, str]) -> str:
+    """The outcome of a check; that which the verdict does not rest on is information."""
+    words = say(check._verdict(key))
+    return (
+        words if key in check.required or key in check.not_applicable else say("{verdict} (information)", verdict=words)
+    )
 
 
 def _named(some: Sequence[Wall], walls: Sequence[Wall]) -> str:
@@ -225,17 +270,17 @@ def _named(some: Sequence[Wall], walls: Sequence[Wall]) -> str:
 
 
 def _failed(made: Sequence[CodeCheck]) -> list[str]:
-    """The checks that walls do not pass, a sentence each."""
+    """The checks that the verdict rests on and walls do not pass, a sentence each."""
     sentences = []
-    for key in dict.fromkeys(key for check in made for key in check.verified):
-        missed = [check for check in made if not check.verified.get(key, True) and key not in check.not_applicable]
+    for key in dict.fromkeys(key for check in made for key in check.required):
+        missed = [check for check in made if not check._verified.get(key, True)]
         if not missed:
             continue
-        ratios = [check.value(*key, "ratio") for check in missed if key[0] != "dynamic"]
+        ratios = [check.value(*key, "ratio") for check in missed]
         what = _name(*key)
-        if ratios and len(missed) == 1:
+        if len(missed) == 1:
             what = say("{check}, capacity / demand {ratio:.3g}", check=what, ratio=min(ratios))
-        elif ratios:
+        else:
             what = say("{check}, least capacity / demand {ratio:.3g}", check=what, ratio=min(ratios))
         if len(made) == 1:
             sentences.append(what)
@@ -274,8 +319,9 @@ def _site_in_words(check: CodeCheck) -> tuple[Any, ...]:
         facts = {name: decimal(text.replace(", ", "; ")) for name, text in facts.items()}
     facts["ground"] = say("soil {soil}, topography {topography}", soil=site.soil, topography=site.topography)
     if "V_R" in facts:
-        facts["V_R"] = say("{years:g} years", years=site.reference_life)
-    words = [(_SITE.get(name) or say("ground"), f" {text}") for name, text in facts.items()]
+        facts["V_R"] = say("{years:g} years", years=site.hazard.reference_life)
+    heads = {"ground": say("ground"), "place": say("coordinates"), **_SITE}
+    words = [(heads[name], f" {text}") for name, text in facts.items()]
     return tuple(piece for place, fact in enumerate(words) for piece in (*([", "] if place else []), *fact))
 
 
@@ -283,10 +329,20 @@ def _site(check: CodeCheck, state: str) -> float:
     return check.value("site", state, "pga")
 
 
+def _amount(value: float, unit: str) -> Piece:
+    """A capacity or a demand with its unit; a dash for none."""
+    return NONE if np.isnan(value) else quantity(value, UNITS[unit])
+
+
+def _chance(found: Chance | None) -> Piece:
+    """A probability of collapse with its interval; a dash for none."""
+    return NONE if found is None else chance(*found)
+
+
 def _sheet(check: CodeCheck) -> Table:
     """All numbers, in the order of the calculation."""
     counts = ("records", "histories", "beyond", "verified", *_YES_OR_NO)
-    shown = [row for row in check.rows if row.quantity != "probability"]
+    shown = [row for row in check.rows if not row.quantity.startswith("probability")]
     texts = say("check"), say("symbol"), say("unit"), say("formula")
     columns: dict[Piece, Sequence[Piece]] = {
         say("quantity"): [row.meaning if in_english() else MEANINGS[row.quantity].partition(":")[0] for row in shown],

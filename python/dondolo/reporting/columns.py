@@ -61,7 +61,7 @@ _COLUMNS: dict[str, _Shown] = {
     "p_occ": _Shown(Symbol("p", "occ"), number),
     "occurrence": _Shown("occurrence", say, True),
     "alternative": _Shown("alternative", str, True),
-    "saturation": _Shown("can occur", percent),
+    "upper_asymptote": _Shown("can occur", percent),
     # Lognormal curves
     "theta": _Shown(_in_unit(THETA), parameter),
     "beta": _Shown(BETA, parameter),
@@ -117,12 +117,12 @@ _COLUMNS: dict[str, _Shown] = {
     "alpha_0": _Shown(Symbol("α", "0"), number),  # noqa: RUF001
     "a_0_m_s2": _Shown((Symbol("a", "0", "*"), " [m/s²]"), number),
     "zeta_e_linear": _Shown((Symbol("ζ", "E"), ", linear SLV"), _three),
-    "zeta_e": _Shown((Symbol("ζ", "E"), ", nonlinear SLV"), _three),
+    "zeta_e": _Shown((Symbol("ζ", "E"), ", nonlinear"), _three),
     "return_period": _Shown((Symbol("T", "R,C"), " [years]"), tuple),
     "alpha_0_change": _Shown(("Δ", Symbol("α", "0")), number),  # noqa: RUF001
     "a_0_change_m_s2": _Shown(("Δ", Symbol("a", "0", "*"), " [m/s²]"), number),
     "zeta_e_linear_change": _Shown(("Δ", Symbol("ζ", "E"), ", linear SLV"), _three),
-    "zeta_e_change": _Shown(("Δ", Symbol("ζ", "E"), ", nonlinear SLV"), _three),
+    "zeta_e_change": _Shown(("Δ", Symbol("ζ", "E"), ", nonlinear"), _three),
     "return_period_change": _Shown(("Δ", Symbol("T", "R,C"), " [years]"), _three),
     # Sources of uncertainty
     "source": _Shown("source", source_name, True),

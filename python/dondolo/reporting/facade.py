@@ -22,8 +22,8 @@ def summary(people: Typology) -> dict[str, Any]:
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.has_fit:
         whose = say("of collapse by any of its mechanisms, counted in the same histories")
-        if curve.saturation < 1.0:
-            whose += say(", if one can occur ({share:.3g} %)", share=100.0 * curve.saturation)
+        if curve.upper_asymptote < 1.0:
+            whose += say(", if one can occur ({share:.3g} %)", share=100.0 * curve.upper_asymptote)
         cards.append((pieces("median {theta}", theta=THETA), level(curve.theta, people.im), whose))
         error = pieces("standard error {error}", error=number(curve.se_beta, 3))
         cards.append((pieces("dispersion {beta}", beta=BETA), number(curve.beta, 3), error))
@@ -81,7 +81,7 @@ def _curves_table(people: Typology) -> Table:
         "curve": [people.facade, *(row.name for row in people.walls)],
         "mechanism": [say("any of them"), *(row.mechanism for row in people.walls)],
         **parameters_of(curves, "theta", "se_ln_theta", "beta", "se_beta"),
-        "saturation": [union.saturation, *people.population.p_occ],
+        "upper_asymptote": [union.upper_asymptote, *people.population.p_occ],
         "status": [curve.status for curve in curves],
     }
     return shown(columns, people.im)
@@ -90,7 +90,7 @@ def _curves_table(people: Typology) -> Table:
 def _levels_table(people: Typology) -> Table:
     """How many histories reach a state at each level, by any mechanism and by each."""
     union = people.unions[people.facade]
-    reached = union.saturation * union.collapses
+    reached = union.upper_asymptote * union.collapses
     columns: dict[str, Any] = {
         "im_level": people.levels,
         "histories": union.histories,

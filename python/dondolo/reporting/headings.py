@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from dondolo.reporting.relazione.terms import ITEMS, MEANINGS, MECHANISMS
+from dondolo.reporting.relazione.terms import MEANINGS, MECHANISMS, item_in_words
 from dondolo.reporting.statuses import FITS
 
 SHEETS = {
@@ -70,7 +70,7 @@ COLUMNS = {
     "p_occ": "probabilità che il meccanismo sia possibile",
     "occurrence": "compresenza",
     "alternative": "alternativa",
-    "saturation": "quota che può collassare",
+    "upper_asymptote": "quota che può collassare",
     # Levels and counts
     "im": "misura d'intensità",
     "im_level": "livello d'intensità",
@@ -148,13 +148,13 @@ COLUMNS = {
     "gain_per_kg": "guadagno per kg/m",
     "static_ratio": "rapporto delle accelerazioni statiche",
     "zeta_e_linear": "ζ_E, SLV lineare",
-    "zeta_e": "ζ_E, SLV non lineare",
+    "zeta_e": "ζ_E, non lineare",
     "return_period_capacity": "T_R,C [anni]",
     "return_period_bound": "T_R,C, estremo",
     "alpha_0_change": "Δα₀",
     "a_0_change": "Δa₀*",
     "zeta_e_linear_change": "Δζ_E, SLV lineare",
-    "zeta_e_change": "Δζ_E, SLV non lineare",
+    "zeta_e_change": "Δζ_E, non lineare",
     "return_period_change": "ΔT_R,C [anni]",
     # Checks
     "method": "metodo",
@@ -211,7 +211,7 @@ COLUMNS = {
     # Walls
     "height": "altezza",
     "thickness": "spessore",
-    "density": "massa volumica",
+    "density": "densità",
     "hinge": "quota della cerniera su altezza",
     "restitution_model": "modello di restituzione",
     "restitution_value": "coefficiente di restituzione dato",
@@ -233,6 +233,7 @@ COLUMNS = {
     "participation": "partecipazione del modo",
     "storeys": "piani",
     "building_height": "altezza dell'edificio",
+    "top_displacement": "spostamento della sommità dell'edificio",
     "support_share": "quota dell'accelerazione relativa degli appoggi",
     "support_tilt": "inclinazione per spostamento relativo degli appoggi",
     "level_top": "quota della sommità",
@@ -269,7 +270,7 @@ COLUMNS = {
 
 # Words of cells, by column
 WORDS: Mapping[str, Mapping[str, str]] = {
-    "mechanism": MECHANISMS | {"all": "tutti", "tabulated": "tabellato"},
+    "mechanism": MECHANISMS | {"all": "tutti"},
     "status": FITS,
     "method": {
         "site": "sito",
@@ -309,8 +310,7 @@ def heading(name: str) -> str:
 def in_words(name: str, value: str) -> str:
     """A cell of a column of words."""
     if name == "item":
-        word, _, number = value.rpartition(" ")
-        return f"{ITEMS[word]} {number}" if word in ITEMS else ITEMS.get(value, value)
+        return item_in_words(value)
     found = _PART.match(name)
     plain = f"{found[1]}{found[3] or ''}" if found else name.removeprefix("independent_")
     return WORDS.get(plain, {}).get(value, value)

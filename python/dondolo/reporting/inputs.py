@@ -21,6 +21,7 @@ from dondolo.records.record import Record
 from dondolo.reporting import headings
 from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
+    Column,
     Facts,
     Piece,
     Symbol,
@@ -36,6 +37,7 @@ from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.reporting.units import UNITS, Unit
+from dondolo.walls.chains import TABLES, Chain
 from dondolo.walls.mechanisms import TERMS, TabulatedWall
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
@@ -141,7 +143,7 @@ def _wall_facts(run: Run) -> Facts:
     wall = run.population.walls[0]
     pairs: Facts = [(say("name"), wall.name), (say("mechanism"), mechanism_name(wall.mechanism))]
     for row in WALL_PROPERTIES[2:]:
-        if row.name in TERMS:
+        if row.name in TERMS or row.name in TABLES:
             continue
         unit, factor = _unit(row)
         if value := _set(row.name, effective_property(wall, row.name), factor):
@@ -179,8 +181,8 @@ def _main_properties(people: Population, is_alike: bool) -> Table:
     """What every wall of a population has, and the loads of its top; designs and hinges of a facade have no weights."""
     walls = people.walls
     columns: dict[str, Sequence[Any]] = {"wall": [wall.name for wall in walls]}
-    if any(people.groups):
-        columns["group"] = people.groups
+    if any(people.group_names):
+        columns["group"] = people.group_names
     columns["mechanism"] = [wall.mechanism for wall in walls]
     if not is_alike:
         columns["weight"] = people.weights.tolist()
@@ -191,15 +193,18 @@ def _main_properties(people: Population, is_alike: bool) -> Table:
         values = [getattr(wall, what, None) for wall in walls]
         if any(value is not None for value in values):
             columns[what] = values
-    misfits = [wall.misfit if isinstance(wall, TabulatedWall) else None for wall in walls]
+    misfits = [wall.misfit if isinstance(wall, (Chain, TabulatedWall)) else None for wall in walls]
     if any(misfit is not None for misfit in misfits):
         columns["table_misfit"] = misfits
-    return shown(columns)
+    notes = (Column(name, texts, True) for name, texts in people.notes.items())
+    return Table((*shown(columns).columns, *notes))
 
 
 def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     """Sections, loads, ties, floors: what some of the walls have, as many columns a table as a page is wide."""
-    rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in (*_OF_TWO_BLOCKS, *TERMS)]
+    rows = [
+        row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in (*_OF_TWO_BLOCKS, *TERMS, *TABLES)
+    ]
     units = {row.name: _unit(row) for row in rows}
     known = {
         name: [_set(name, effective_property(wall, name), unit.factor) for wall in walls]
@@ -383,7 +388,7 @@ def checks(run: Run) -> dict[str, Any]:
         )
     pairs = [(say("scale factors above 10"), scales)]
     if error is not None:
-        pairs.append((say("largest estimated error of an EDP"), number(float(np.max(error)), 3)))
+        pairs.append((say("largest estimated error of an EDP"), number(float(np.nanmax(error)), 3)))
     work = results.work
     histories, runs = counted_histories(results)
     still = (whole(work.still // runs), " (", percent(work.still / max(work.histories, 1)), ")")

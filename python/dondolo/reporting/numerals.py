@@ -13,6 +13,7 @@ from dondolo._fortran.library import shown_probability
 
 # Typography, by name: they look like others
 _DASH, _MINUS, _THIN_BLANK = "\N{EN DASH}", "\N{MINUS SIGN}", "\N{NARROW NO-BREAK SPACE}"
+_BLANK = "\N{NO-BREAK SPACE}"
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,14 @@ def whole(value: float, unit: str = "") -> Numeral:
 def probability(value: float) -> Numeral:
     """A probability."""
     return NONE if np.isnan(value) else Numeral(shown_probability(value))
+
+
+def chance(value: float, low: float, high: float) -> tuple[Numeral | str, ...]:
+    """A probability with its interval, if known; a tail of the fit is only known to be small."""
+    if np.isnan(low) or probability(high) == probability(value):
+        return (probability(value),)
+    ends = (Numeral(shown_probability(end).replace(" ", _BLANK)) for end in (low, high))
+    return probability(value), " (", next(ends), _DASH, next(ends), ")"
 
 
 def percent(share: float) -> Numeral:

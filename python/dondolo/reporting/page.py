@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.files import as_file
-from dondolo._base.wording import say
+from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._fortran.records import blank_unit
@@ -36,6 +36,7 @@ from dondolo.reporting.pdf import check_printer, write_pdf
 from dondolo.reporting.relazione.terms import warning
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
+from dondolo.reporting.tested import sentences
 from dondolo.reporting.ties import ties
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def report(
     Parameters
     ----------
     results : Results, Typology, UncertainWall, Stripes or Response
-        What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate`
+        What `read_results`, `run_case`, `typology`, `propagate_uncertainty`, `multiple_stripe` or `simulate`
         gave. The results of a case know most of a run.
     path : path
         The file, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. PDF is printed by Chromium or WeasyPrint.
@@ -265,7 +266,9 @@ def _chapters(run: Run, hazard: HazardCurve | None, language: Language) -> list[
         found += short
     measure = style.im_label(getattr(results, "im", "pga"))
     checked = run.checks if run.check is None else (run.check,)
-    found_verdict = verdict(checked, run.population.walls, without_soil=hazard is not None and hazard.rigid_ground)
+    found_verdict = verdict(
+        checked, run.population.walls, run.warnings, without_soil=hazard is not None and hazard.rigid_ground
+    )
     known = run.file is not None and run.file.references
     cited = [run.file] if known else [results, run.curve, run.check, run.uncertain, *run.records]
     return [
@@ -285,12 +288,19 @@ def _chapters(run: Run, hazard: HazardCurve | None, language: Language) -> list[
                 "is_uncertain": run.uncertain is not None,
                 "is_shaken": inputs.has_vertical(run),
                 "on_ground": inputs.on_ground(run),
+                "tested": _tested(run),
             },
         ),
         Chapter("symbols", say("Symbols and terms"), "symbols", {"measure": measure, "is_alike": run.is_alike}),
         Chapter("software", say("Software"), "facts", inputs.software(run)),
         Chapter("references", say("References"), "references", cite(*(one for one in cited if one is not None))),
     ]
+
+
+def _tested(run: Run) -> list[str]:
+    """What is known of tests of the mechanisms."""
+    mechanisms = (wall.mechanism for wall in run.population.walls)
+    return [say(words, **values) for words, values in sentences(mechanisms, mechanism_name, decimal)]
 
 
 def _title_of_walls(run: Run) -> str:
@@ -315,7 +325,10 @@ def _lead(run: Run) -> str:
         parts.append(say("{wall}: {mechanism}, its {names} uncertain", **words))
         parts.append(say("{variants} variants, and {others} beside them", variants=many, others=len(everything) - many))
     elif run.designs is not None and isinstance(results, Typology):
-        parts.append(say("{designs} designs of one wall", designs=len(results.walls)))
+        designs = len(results.walls)
+        parts.append(
+            say("{designs} designs of one wall", designs=designs) if designs > 1 else say("1 design of one wall")
+        )
     elif run.facade and isinstance(results, Typology):
         many = len(results.walls)
         parts.append(
@@ -327,7 +340,7 @@ def _lead(run: Run) -> str:
         parts.append(
             say("{walls} walls with {mechanisms} mechanisms", walls=walls, mechanisms=rows)
             if rows > walls
-            else say("{walls} walls", walls=walls)
+            else style.counted_walls(walls)
         )
         if counted < walls:
             parts[-1] += say(
@@ -352,6 +365,8 @@ def _lead(run: Run) -> str:
             say("{histories} histories, each run {runs} times", histories=whole(histories).text, runs=runs)
             if runs > 1
             else say("{histories} histories", histories=whole(histories).text)
+            if histories != 1
+            else say("1 history")
         )
     if run.file is not None and run.file.written is not None:
         parts.append(say("run of {date}", date=date_in_words(run.file.written)))

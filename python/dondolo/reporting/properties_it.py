@@ -33,6 +33,9 @@ MEANINGS = {
     " faccia",
     "compressive_strength": "resistenza a compressione della muratura, da cui segue quella distanza",
     "stress_block": "tensione nella zona compressa della base / resistenza, 0,85 se non assegnata",
+    "young_modulus": "modulo elastico della muratura di un elemento libero, ridotto per la fessurazione: un valore o un"
+    " intervallo, per le verifiche",
+    "free": "elemento libero, come un parapetto, che nessun muro ortogonale trattiene",
     "edge_radius": "raggio dello spigolo su cui la parete rotola, che è anche l'arretramento della cerniera a riposo",
     "load": "carichi verticali che accompagnano la parete, al metro di parete",
     "load_depth": "distanza di ogni carico dalla faccia esterna",
@@ -52,10 +55,10 @@ MEANINGS = {
     "spring": "rigidezza delle molle che tirano e spingono, al metro di parete",
     "spring_depth": "distanza di ogni molla dalla faccia esterna",
     "spring_height": "quota di ogni molla sopra la base",
-    "bed": "rigidezza delle molle distribuite su un'altezza, al metro di parete e di altezza",
-    "bed_depth": "distanza di ogni letto di molle dalla faccia esterna",
-    "bed_bottom": "quota a cui comincia ogni letto di molle",
-    "bed_top": "quota a cui finisce ogni letto di molle",
+    "distributed_spring": "rigidezza delle molle distribuite su un'altezza, al metro di parete e di altezza",
+    "distributed_spring_depth": "distanza di ogni letto di molle dalla faccia esterna",
+    "distributed_spring_bottom": "quota a cui comincia ogni letto di molle",
+    "distributed_spring_top": "quota a cui finisce ogni letto di molle",
     "tie_height": "quota dell'ancoraggio di ogni catena sopra la base",
     "tie_depth": "distanza di ogni ancoraggio dalla faccia esterna, 0 se non assegnata",
     "tie_area": "sezione di ogni catena al metro di parete: quella di una barra / interasse",
@@ -90,7 +93,21 @@ MEANINGS = {
     "interlock_thickness": "spessore di un muro trasversale",
     "interlock_spacing": "interasse dei muri trasversali",
     "interlock_friction": "coefficiente d'attrito dell'ammorsamento, 0,577 se non assegnato",
+    "facade_length": "lunghezza della facciata a cui appartengono i cunei, per la quale si divide la loro massa",
+    "wedge_thickness": "spessore di ogni muro trasversale di cui un cuneo ruota con la facciata",
+    "wedge_angle": "angolo rispetto alla verticale della lesione sotto ogni cuneo; 0: nessun cuneo",
+    "wedge_bottom": "quota sopra la base a cui ogni cuneo comincia, in un punto",
+    "wedge_top": "quota a cui ogni cuneo finisce",
+    "wedge_length": "lunghezza massima di ogni cuneo dietro la faccia interna, fino alla prima apertura del muro"
+    " trasversale",
     "hinge": "quota della cerniera intermedia / altezza della parete",
+    "hinge_range": "quote minima e massima, in rapporto all'altezza, tra cui si cerca la cerniera più debole; 0,1 e 0,9"
+    " se non assegnate",
+    "elastic_period": "periodo delle piccole oscillazioni della striscia tra i vincoli, carico compreso, prima che i"
+    " giunti si aprano; blocchi rigidi se non assegnato",
+    "elastic_damping": "rapporto di smorzamento di tali oscillazioni, con elastic_period; 0,05 se non assegnato",
+    "base_level": "quota della base rispetto al suolo, su un edificio non assegnato: la verifica non ha lo spettro a"
+    " tale quota; hinge_level la assegna",
     "restitution": "modello degli urti",
     "restitution_value": "velocità dopo / prima di un urto, al posto di un modello",
     "restitution_factor": "fattore sul coefficiente di restituzione di qualunque modello",
@@ -108,15 +125,30 @@ MEANINGS = {
     "lever": "somma delle masse per i loro bracci orizzontali L a ogni rotazione, al metro di parete",
     "moment": "momento stabilizzante G - Q a ogni rotazione, al metro di parete",
     "vertical_lever": "somma delle masse per i loro bracci verticali S a ogni rotazione, per il moto verticale",
+    "travel": "spostamento d dell'oscillatore equivalente (C8.7.1.4) per ogni rotazione, per le verifiche",
+    "weighted_lever": "somma dei pesi per i bracci orizzontali per ogni rotazione, per le verifiche; gravità per lever"
+    " se non assegnata e nulla è portato",
+    "weight": "peso di ogni corpo e carico, per le verifiche, al metro di parete",
+    "displacement": "di quanto ciascuno si sposta verso l'esterno a riposo per una rotazione unitaria",
     "sides": "1: la parete oscilla da un solo lato; 2: da entrambi, e cambia lato a ogni urto",
     "top_share": "frazione k dell'accelerazione della sommità, relativa alla base, che muove la parete",
     "top_tilt": "inclinazione tau: fattore sullo spostamento della sommità relativo alla base",
+    "bodies": "file CSV dei corpi rigidi",
+    "joints": "file CSV delle cerniere e delle guide tra di essi",
+    "actions": "file CSV di carichi, masse spinte e spinte in punti dei corpi",
+    "driver": "numero del corpo la cui rotazione è q",
+    "gravity_share": "parte della gravità che agisce nel piano del moto",
+    "body_table": "righe dei corpi come numeri, 11 per riga, al posto del loro file",
+    "joint_table": "righe dei vincoli come numeri, 8 per riga, al posto del loro file",
+    "action_table": "righe delle azioni come numeri, 10 per riga, al posto del loro file",
     "period": "periodi dei modi dell'edificio su cui sta la parete",
     "damping": "loro smorzamenti, o uno per tutti; 0,05 se non assegnati",
     "participation": "loro coefficienti di partecipazione per la forma alla quota della parete, non in percentuale",
     "storeys": "numero n di piani, al posto di participation: 3 n / (2 n + 1) level / building_height",
     "level": "quota del piano della parete rispetto al suolo, con storeys",
     "building_height": "altezza dell'edificio, con storeys",
+    "top_displacement": "spostamento d della sommità dell'edificio sotto i pesi applicati in orizzontale, al posto di"
+    " period: 2 √d",
     "level_top": "quota rispetto al suolo fino a cui l'edificio muove la parete, con storeys; la sommità della parete o"
     " dell'edificio se non assegnata",
     "participation_top": "coefficienti di partecipazione per la forma alla sommità della parete, con participation; gli"
@@ -151,11 +183,22 @@ MEANINGS = {
     " SLC",
     "f0": "massima amplificazione dello spettro su tale suolo, una o tre",
     "tc_star": "periodo d'inizio del tratto a velocità costante su tale suolo, uno o tre",
+    "latitude": "latitudine del sito (WGS84): con longitude e nominal_life dà ag, f0 e tc_star di tutti gli stati"
+    " limite",
+    "longitude": "longitudine del sito (WGS84)",
+    "nominal_life": "vita nominale V_N, con latitude e longitude; V_R = C_U V_N",
+    "use_class": "classe d'uso, con il suo coefficiente C_U",
     "soil": "categoria di sottosuolo",
     "topography": "categoria topografica",
-    "knowledge_factor": "fattore di confidenza FC: 1, 1,2 o 1,35; l'ultimo se nessuna resistenza a compressione arretra"
-    " la cerniera",
+    "knowledge_factor": "fattore di confidenza FC: 1, 1,2 o 1,35; per una parete senza compressive_strength la verifica"
+    " assume l'ultimo",
     "behaviour": "fattore di comportamento q della verifica lineare",
+    "ultimate_state": "stato limite ultimo su cui si fonda il giudizio (NTC 8.3)",
+    "friction": "coefficiente d'attrito alle cerniere: la verifica segnala una parete che scorre prima di ruotare",
+    "building_period": "periodo del primo modo dell'edificio su cui sta la parete, uno per tutti gli stati limite o"
+    " quelli di SLD, SLV e SLC; se non assegnato SLV e SLC assumono il peggiore tra 1 e 2 volte quello di &building",
+    "building_damping": "rapporto di smorzamento dei modi dell'edificio, uno o tre, con building_period; se non"
+    " assegnato quello di &building",
     "reference_life": "periodo di riferimento V_R, per i periodi di ritorno, con exceedance",
     "exceedance": "probabilità di superamento in quel periodo di SLD, SLV e SLC, i cui periodi di ritorno hanno ag, f0"
     " e tc_star",

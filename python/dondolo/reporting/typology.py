@@ -71,7 +71,7 @@ def summary(people: Typology) -> dict[str, Any]:
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.fit.has_fit:
         whose: Piece = say("of collapse, whole population")
-        if curve.saturation < 1.0:
+        if curve.upper_asymptote < 1.0:
             # Theta of the walls that can collapse is below the level at which half of all do.
             half = float(curve.fit.ppf(0.5))
             of_all = (
@@ -80,7 +80,8 @@ def summary(people: Typology) -> dict[str, Any]:
                 else (say("half of all at no level"),)
             )
             share = say(
-                "of collapse, the {share:.3g} % of the population that can collapse; ", share=100.0 * curve.saturation
+                "of collapse, the {share:.3g} % of the population that can collapse; ",
+                share=100.0 * curve.upper_asymptote,
             )
             whose = (share, *of_all)
         cards.append((pieces("median {theta}", theta=THETA), level(curve.fit.theta, people.im), whose))

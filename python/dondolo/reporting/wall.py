@@ -59,7 +59,12 @@ def summary(stripes: Stripes, curve: Fragility) -> dict[str, Any]:
         cards.append((say("fit"), say("none"), short_status(curve.status)))
         ends = pieces("{low} and {high}", low=number(low, 3), high=level(high, stripes.im))
         cards.append((say("median between"), ends, say("levels")))
-    histories = say("{levels} levels of {histories}", levels=len(stripes.levels), histories=span(stripes.histories))
+    several = span(stripes.histories)
+    histories = (
+        say("{levels} levels of {histories}", levels=len(stripes.levels), histories=several)
+        if len(stripes.levels) > 1
+        else say("1 level of {histories}", histories=several)
+    )
     cards.append((say("histories"), whole(stripes.ran.sum()), histories))
     share = pieces("{share} of the histories", share=percent(stripes.collapsed.sum() / stripes.ran.sum()))
     cards.append((say("collapses"), whole(stripes.collapsed.sum()), share))
@@ -96,7 +101,7 @@ def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     curve = fits[-1]
     table = plain(stripes_table(stripes, [stripes.edp_limit]))
     levels = chosen(table, "im_level", "histories", "collapses", "fraction")
-    levels |= of_curve(curve, stripes.levels) | {"median_edp": np.median(stripes.edp, axis=1)}
+    levels |= of_curve(curve, stripes.levels) | {"median_edp": np.nanmedian(stripes.edp, axis=1)}
     names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
     kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "deviance", "deviance_dof", "status")
     states = {"damage_state": names} | parameters_of(fits, *kept)

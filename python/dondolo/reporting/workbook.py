@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
 import tempfile
 import zipfile
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from dondolo._base.files import as_file
-from dondolo._fortran.files import RUN_FILE, whole_file
+from dondolo._fortran.files import REAL, RUN_FILE, TEXT, Column, whole_file
 from dondolo._fortran.origins import check_replaced, derived_mark
+from dondolo._fortran.walls import is_note
 from dondolo._storage.run_file import RunFile, read_run_file
+from dondolo._storage.tables import digits
 from dondolo.errors import DondoloError, InputError, visible
 from dondolo.exchange.result_file import ResultFile
 from dondolo.reporting import headings
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.terms import warning
-
-# Numbers as tables have them; 007 is a name.
-_NUMBER = re.compile(r"[+-]?(0|[1-9]\d*)(\.\d*)?(E[+-]?\d+)?")
 
 # Rows that a sheet of Excel has
 _MOST_ROWS = 2**20
@@ -77,8 +80,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
     >>> dd.write_workbook("parapets", "parapets.xlsx")
     """
     try:
-        from xlsxwriter import Workbook
-        from xlsxwriter.exceptions import FileCreateError
+        import xlsxwriter  # noqa: F401
     except ImportError:
         raise DondoloError(
             "XlsxWriter is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
@@ -95,30 +97,45 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
         table.check()
         if len(table) >= _MOST_ROWS:
             raise InputError(f"{table.path}: has {len(table)} rows, more than a sheet of a workbook can have")
-        columns = [_values(table.texts(column)) for column in table]
+        columns = [_values(table.column(column)) for column in table]
         name = written.name.removeprefix("_").removesuffix(".csv")
         # To spreadsheets Walls is walls.
         if not _SHEET.fullmatch(name) or name.lower() in map(str.lower, sheets):
             raise InputError(f"{run.path}: files: '{written.name}' is not the name of a table")
         sheets[name] = (list(table), columns)
-    with whole_file(target) as part, tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        # One row at a time is in memory.
-        book = Workbook(part, {"constant_memory": True, "tmpdir": folder, "use_zip64": True})
-        # The same bytes for the same run: the date is that of the run, with which its name begins.
-        book.set_properties({"author": "dondolo", "created": run.begun})
-        for name, (titles, cells) in sheets.items():
-            if language.code == "it":
-                heads = [headings.heading(title) for title in titles]
-                _add_sheet(book, headings.SHEETS.get(name, name), heads, _in_italian(titles, cells))
-            else:
-                _add_sheet(book, _OTHERWISE.get(name, name), titles, cells)
-        try:
+    content = _packed(sheets, run, language, target)
+    with whole_file(target) as part:
+        part.write_bytes(content)
+
+
+def _packed(sheets: dict[str, _Sheet], run: RunFile, language: Language, target: Path) -> bytes:
+    """A workbook, packed in memory: XlsxWriter leaves a file half open that a full disk has no room for."""
+    from xlsxwriter import Workbook
+    from xlsxwriter.exceptions import FileCreateError
+
+    packed = io.BytesIO()
+    try:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            # One row at a time is in memory.
+            book = Workbook(packed, {"constant_memory": True, "tmpdir": folder, "use_zip64": True})
+            # The same bytes for the same run: the date is that of the run, with which its name begins.
+            book.set_properties({"author": "dondolo", "created": run.begun})
+            for name, (titles, cells) in sheets.items():
+                if language.code == "it":
+                    heads = [headings.heading(title) for title in titles]
+                    _add_sheet(book, headings.SHEETS.get(name, name), heads, _in_italian(titles, cells))
+                else:
+                    _add_sheet(book, _OTHERWISE.get(name, name), titles, cells)
             book.close()
-        except FileCreateError as error:
-            raise error.args[0] from None
-        with zipfile.ZipFile(part, "a") as archive:
-            # Spreadsheets drop it when they save the workbook, which is the user's own from then on.
-            archive.comment = derived_mark("workbook", run.run).encode()
+    except (OSError, FileCreateError) as error:
+        reason = error if isinstance(error, OSError) else error.args[0]
+        raise DondoloError(
+            f"{target}: its temporary files cannot be written in {tempfile.gettempdir()}: {reason.strerror}"
+        ) from None
+    with zipfile.ZipFile(packed, "a") as archive:
+        # Spreadsheets drop it when they save the workbook, which is the user's own from then on.
+        archive.comment = derived_mark("workbook", run.run).encode()
+    return packed.getvalue()
 
 
 def _in_italian(titles: list[str], columns: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
@@ -128,7 +145,7 @@ def _in_italian(titles: list[str], columns: Sequence[Sequence[Any]]) -> Sequence
     for title, cells in known.items():
         if title == "meaning":
             cells = [headings.meaning(*pair) for pair in zip(known["quantity"], cells, strict=True)]
-        elif title not in ("wall", "group", "value"):
+        elif title not in ("wall", "group", "value") and not is_note(title):
             cells = [headings.in_words(title, one) if isinstance(one, str) else one for one in cells]
         made.append(cells)
     return made
@@ -147,15 +164,19 @@ def _case(run: RunFile, language: Language) -> list[list[Any]]:
     return rows + [["", word, warning(language, one)] for one in run.warnings]
 
 
-def _values(cells: list[str]) -> list[Any]:
-    """A column: numbers if all of its cells are, and nothing where a cell is empty."""
-    # Each that differs once: names and levels stand in many rows
-    known: dict[str, Any] = dict.fromkeys(cells)
-    if all(_NUMBER.fullmatch(cell) for cell in known if cell):
-        known |= {cell: float(cell) if "." in cell or "E" in cell else int(cell) for cell in known if cell}
-        if all(number is None or _is_number(number) for number in known.values()):
-            return [known[cell] for cell in cells]
-    return list(cells)
+def _values(column: Column) -> Sequence[Any]:
+    """Cells of a column: texts, or numbers with None where there is none; one that no cell can have is a text."""
+    if column.kind == TEXT:
+        return list(column.values)
+    cells: list[Any] = []
+    for one in np.asarray(column.values).tolist():
+        if one != one:
+            cells.append(None)
+        elif column.kind != REAL and one.is_integer():
+            cells.append(int(one))
+        else:
+            cells.append(one if _is_number(one) else digits(one))
+    return cells
 
 
 def _is_number(value: Any) -> bool:

@@ -27,7 +27,7 @@ from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.comparison import Comparison
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.table import flat
-from dondolo.errors import InputError, silent
+from dondolo.errors import InputError, Interrupted, silent
 from dondolo.populations.combination import combine_rows
 from dondolo.populations.flags import Flags
 from dondolo.populations.typology import Typology
@@ -259,7 +259,7 @@ def compare_designs(
     InputError
         No designs, names without a design, and errors of `multiple_stripe` and, with a site, `check_ntc`.
     Interrupted
-        Ctrl-C or `stop`.
+        Ctrl-C or `stop`; its `partial` is the comparison of the designs that are complete.
 
     Warns
     -----
@@ -288,22 +288,33 @@ def compare_designs(
     grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
     given = {"im": im, "polarity": polarity, "solver": solver, "threads": threads}
     alike = {id(grid): Study(several, grid, **given) for grid in grids}  # type: ignore[arg-type]
-    stripes = tuple(
-        alike[id(grid)].run(wall, progress=progress, stop=stop) for wall, grid in zip(walls, grids, strict=True)
-    )
-    curves = tuple(one.fit() for one in stripes)
-    has_levels = all(np.array_equal(one.levels, stripes[0].levels) for one in stripes)
-    return DesignComparison(
-        names=names,
-        stripes=stripes,
-        curves=curves,
-        comparisons=tuple(_against(curve, curves[0], confidence) for curve in curves),
-        steel=masses,
-        alpha_0=np.array([wall.plastic_acceleration / wall.gravity for wall in walls]),
-        confidence=float(confidence),
-        checks=checks,
-        typology=_alternatives(names, stripes) if has_levels else None,
-    )
+    alpha_0 = np.array([wall.plastic_acceleration / wall.gravity for wall in walls])
+    stripes: list[Stripes] = []
+
+    def complete() -> DesignComparison:
+        curves = tuple(one.fit() for one in stripes)
+        n = len(stripes)
+        has_levels = all(np.array_equal(one.levels, stripes[0].levels) for one in stripes)
+        return DesignComparison(
+            names=names[:n],
+            stripes=tuple(stripes),
+            curves=curves,
+            comparisons=tuple(_against(curve, curves[0], confidence) for curve in curves),
+            steel=masses[:n],
+            alpha_0=alpha_0[:n],
+            confidence=float(confidence),
+            checks=checks[:n],
+            typology=_alternatives(names[:n], stripes) if has_levels else None,
+        )
+
+    for wall, grid in zip(walls, grids, strict=True):
+        try:
+            stripes.append(alike[id(grid)].run(wall, progress=progress, stop=stop))
+        except Interrupted as interrupted:
+            told = f"interrupted: {len(stripes)} of {len(walls)} designs are complete; of the next {interrupted}"
+            with silent():
+                raise Interrupted(told, complete() if stripes else None) from None
+    return complete()
 
 
 def _alternatives(names: Sequence[str], stripes: Sequence[Stripes]) -> Typology:

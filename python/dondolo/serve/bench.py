@@ -21,17 +21,21 @@ from typing import Any
 import numpy as np
 
 import dondolo as dd
-from dondolo._base.arguments import argument_error, as_number
+from dondolo._base.arguments import argument_error, as_number, one_of
+from dondolo._fortran.checks import STATES
 from dondolo._fortran.library import properties
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
+from dondolo.checks.side_by_side import StateLine, chance_at, side_by_side
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Problem, silent
 from dondolo.exchange.case_text import Settings, case_text
 from dondolo.exchange.cases import Case
+from dondolo.records.codes import CHECK_OPTIONS
 from dondolo.records.suite import intensities
-from dondolo.reporting.language import Language
+from dondolo.reporting.language import LANGUAGES, Language
 from dondolo.reporting.properties_it import MEANINGS
+from dondolo.reporting.relazione.terms import BENDING
 from dondolo.reporting.relazione.terms import status as status_in_words
 from dondolo.reporting.relazione.terms import warning as warning_in_words
 from dondolo.serve.levels import chosen_levels
@@ -40,13 +44,30 @@ from dondolo.walls.ties import ties_without_anchor
 
 # Curves that are kept, for B and for a page that goes back
 _KEPT = 12
+# Factors on vertical components whose records are kept
+_KEPT_FACTORS = 2
 # Points of a curve
 _POINTS = 161
 # Groups of a case, in their order
 _GROUPS = ("job", "wall", "building", "records", "stripes", "solver", "check")
 
+# Variables that give the levels
+_OF_LEVELS = ("levels", "first", "last", "count")
+
 # What follows from a property of a wall that is given
 _FOLLOWS = {"section_height": "height", "section_thickness": "thickness", "restitution_value": "restitution"}
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Records, and parts of them for drafts and trials.
+
+    A record remembers the suite that it was uploaded with last: parts have records of their own.
+    """
+
+    whole: tuple[dd.Record, ...]
+    half: tuple[dd.Record, ...]
+    few: tuple[dd.Record, ...]
 
 
 @dataclass(frozen=True)
@@ -85,18 +106,55 @@ class Bench:
             )
             or "synthetic" in catalogue.stem
         )
-        # A record remembers the suite that it was uploaded with last: parts have records of their own.
-        self._half, self._few = (pickle.loads(pickle.dumps(self.records[::step])) for step in (2, 4))
+        self._plain = _motions(self.records)
+        # Those with vertical components, by the factor on these
+        self._vertical: OrderedDict[float, Motions] = OrderedDict()
         self._lock = threading.Lock()
         self._curves: OrderedDict[str, Curve] = OrderedDict()
 
     def open(self, text: str) -> dict[str, Any]:
         """The groups of a case for the page, without what has its default."""
         with self._lock, silent():
-            case = dd.results.Case.from_text(text, self.records)
+            case = self._opened(text)
         if case.task != "stripes":
-            raise _other_task(case)
+            raise other_task(case)
+        left = sorted(set(case.settings) - set(_GROUPS))
+        if left:
+            raise argument_error(
+                "out_of_range", left[0], f": the page has no group &{left[0]}; run this case with dondolo"
+            )
         return sparse(case.settings)
+
+    def _opened(self, text: str) -> Case:
+        """A case, with the vertical components of the catalogue where it takes them."""
+        try:
+            return dd.results.Case.from_text(text, self.records)
+        except InputError as error:
+            if not any(one.variable == "vertical" for one in error.errors):
+                raise
+        # Its groups are known once it is read, whatever the factor.
+        given = dd.results.Case.from_text(text, self._with_vertical(1.0).whole).settings
+        return dd.results.Case.from_text(text, self._motions_of(given).whole)
+
+    def _motions_of(self, settings: Settings) -> Motions:
+        """The records of a case; what is wrong with its words is said when it is read."""
+        given = settings.get("records", {})
+        if given.get("vertical") != "recorded":
+            return self._plain
+        return self._with_vertical(as_number("vertical_factor", given.get("vertical_factor", 1.0)))
+
+    def _with_vertical(self, factor: float) -> Motions:
+        """The records with their vertical components, as the executable reads them from the catalogue."""
+        if factor not in self._vertical:
+            try:
+                read = dd.read_catalogue(self.catalogue, vertical="recorded", vertical_factor=factor)
+            except InputError as error:
+                sentence = f"&records: vertical = 'recorded': {error}"
+                raise InputError(sentence, errors=[Problem(sentence, "not_together", "vertical", "&records")]) from None
+            self._vertical[factor] = _motions(tuple(read))
+            while len(self._vertical) > _KEPT_FACTORS:
+                self._vertical.popitem(last=False)
+        return self._vertical[factor]
 
     def text(self, settings: Settings, lang: str = "en") -> str:
         """The case as text, with the records of the page and comments in a language."""
@@ -116,14 +174,12 @@ class Bench:
         with self._lock:
             if asked.get("auto"):
                 settings = self._with_levels(settings, stop)
-            found = self._curve(self.text(settings, language.code), is_draft, stop)
+            found = self._curve(settings, language.code, is_draft, stop)
             answer = self._shown(found, language)
-            answer |= {"draft": is_draft, "levels": settings["stripes"]["levels"], "text": found.text}
+            answer |= {"draft": is_draft, "levels": found.case.levels.tolist(), "text": found.text}
             if not is_draft:
                 if asked.get("b") is not None and found.fragility.has_fit:
-                    answer["comparison"] = self._comparison(
-                        found, self.text(groups_of(asked["b"]), language.code), stop
-                    )
+                    answer["comparison"] = self._comparison(found, groups_of(asked["b"]), language.code, stop)
                 if isinstance(asked.get("fan"), dict):
                     answer["fan"] = self._fan(settings, asked["fan"], bool(asked.get("auto")), language.code, stop)
         answer["ms"] = 1e3 * (time.perf_counter() - begin)
@@ -133,16 +189,15 @@ class Bench:
         """The motion of the wall under one record that is scaled to a PGA in g."""
         with self._lock, silent():
             place, pga = asked.get("record"), as_number("PGA", asked.get("pga"))
-            if not (isinstance(place, int) and 0 <= place < len(self.records)):
+            if not (type(place) is int and 0 <= place < len(self.records)):
                 raise argument_error(
                     "out_of_range", "record", f" = {place!r}: must be a number from 0 to {len(self.records) - 1}"
                 )
             if not 0.0 < pga <= 10.0:
                 raise argument_error("out_of_range", "PGA", f" = {pga:g} g: must lie between 0 and 10")
-            case, record = (
-                dd.results.Case.from_text(self.text(groups_of(asked.get("settings"))), self.records),
-                self.records[place],
-            )
+            settings = groups_of(asked.get("settings"))
+            records = self._motions_of(settings).whole
+            case, record = dd.results.Case.from_text(self.text(settings), records), records[place]
             scale = pga / float(intensities((record,), "pga", case.population.walls[0].gravity)[0])
             solver = dd.Solver(rtol=case.rtol, atol=case.atol, edp_limit=case.edp_limit)
             return motion_of(dd.simulate(case.population.walls[0], record, scale, solver=solver))
@@ -151,15 +206,17 @@ class Bench:
         self, settings: dict[str, dict[str, Any]], stop: threading.Event | None
     ) -> dict[str, dict[str, Any]]:
         """The case with levels that suit its wall."""
-        given = {name: value for name, value in settings.get("stripes", {}).items() if name in ("im", "edp_thresholds")}
+        given = {name: value for name, value in settings.get("stripes", {}).items() if name not in _OF_LEVELS}
         settings = {**settings, "stripes": {**given, "levels": [1.0]}}
         with silent():
-            case = dd.results.Case.from_text(self.text(settings), self._few)
-            levels = chosen_levels(case, self._few, self.threads, stop)
+            few = self._motions_of(settings).few
+            case = dd.results.Case.from_text(self.text(settings), few)
+            levels = chosen_levels(case, few, self.threads, stop)
         return {**settings, "stripes": {**given, "levels": levels}}
 
-    def _curve(self, text: str, is_draft: bool, stop: threading.Event | None) -> Curve:
-        """The curve of the text of a case, computed once; that of a draft has half of the records."""
+    def _curve(self, settings: Settings, lang: str, is_draft: bool, stop: threading.Event | None) -> Curve:
+        """The curve of a case, computed once; that of a draft has half of the records."""
+        text = self.text(settings, lang)
         key = f"{is_draft}{text}"
         if key in self._curves:
             self._curves.move_to_end(key)
@@ -167,16 +224,19 @@ class Bench:
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", DondoloWarning)
             # A case copies the records that it is read with, which takes as long as the rest of it.
-            case = dd.results.Case.from_text(text, self._few)
+            motions = self._motions_of(settings)
+            case = dd.results.Case.from_text(text, motions.few)
             if case.task != "stripes":
-                raise _other_task(case)
+                raise other_task(case)
             stripes = dd.multiple_stripe(
                 case.population.walls[0],
-                self._half if is_draft else self.records,
+                motions.half if is_draft else motions.whole,
                 case.levels,
                 im=case.im,
                 polarity=case.polarity,  # type: ignore[arg-type]
                 solver=dd.Solver(rtol=case.rtol, atol=case.atol, edp_limit=case.edp_limit, engine=case.engine),  # type: ignore[arg-type]
+                estimate_error=case.estimate_error and not is_draft,
+                certify=case.certify and not is_draft,
                 threads=self.threads,
                 progress=False,
                 stop=stop,
@@ -213,12 +273,14 @@ class Bench:
         if fit.has_fit:
             answer |= curve_points(fit, 1.04 * float(stripes.levels[-1]))
         if found.case.site is not None:
-            answer["check"] = _checked(found.case, fit, language)
+            answer["check"] = _checked(found, language)
         return answer
 
-    def _comparison(self, found: Curve, text: str, stop: threading.Event | None) -> dict[str, Any] | None:
+    def _comparison(
+        self, found: Curve, settings: Settings, lang: str, stop: threading.Event | None
+    ) -> dict[str, Any] | None:
         """The ratio of the medians of B and A with its interval, under the same records."""
-        with_other = self._curve(text, False, stop)
+        with_other = self._curve(settings, lang, False, stop)
         second = with_other.fragility
         if not second.has_fit or second.im != found.fragility.im:
             return None
@@ -247,7 +309,7 @@ class Bench:
         share, place = as_number("share", fan.get("share")), fan.get("place") or 0
         values = settings.get(group, {}).get(name)
         several = values if isinstance(values, list) else [values]
-        if not (isinstance(place, int) and 0 <= place < len(several) and 0.0 < share < 1.0):
+        if not (type(place) is int and 0 <= place < len(several) and 0.0 < share < 1.0):
             raise InputError(f"fan = {dict(fan)}: must name a number of the case and a share of it")
         middle = as_number(name, several[place])
         curves: list[dict[str, Any]] = []
@@ -257,7 +319,7 @@ class Bench:
             try:
                 with silent():
                     chosen = self._with_levels(other, stop) if is_auto else other
-                    found = self._curve(self.text(chosen, lang), False, stop)
+                    found = self._curve(chosen, lang, False, stop)
             except DondoloError as error:
                 curves.append({"factor": factor, "refused": refusal(error)})
                 continue
@@ -265,10 +327,21 @@ class Bench:
         return curves
 
 
+def _motions(records: tuple[dd.Record, ...]) -> Motions:
+    """Records and their parts."""
+    return Motions(records, *(pickle.loads(pickle.dumps(records[::step])) for step in (2, 4)))
+
+
 @functools.cache
-def _language(code: str) -> Language:
+def _known_language(code: str) -> Language:
     """A language, whose catalogue takes longer to read than a curve to fit."""
     return Language(code)
+
+
+def _language(code: Any) -> Language:
+    """The language that a page asks for."""
+    one_of("lang", code, LANGUAGES)
+    return _known_language(code)
 
 
 def curve_points(fit: Fragility, last: float) -> dict[str, Any]:
@@ -301,7 +374,8 @@ def refusal(error: DondoloError) -> dict[str, Any]:
     return {"error": str(error), "errors": errors}
 
 
-def _other_task(case: Case) -> InputError:
+def other_task(case: Case) -> InputError:
+    """The refusal of a case that is not of one wall."""
     sentence = f"task = '{case.task}': the page shows one wall, task = 'stripes'; run this case with dondolo"
     return InputError(sentence, errors=[Problem(sentence, "out_of_range", "task")])
 
@@ -316,27 +390,51 @@ def _parameters(fit: Fragility) -> dict[str, Any]:
     return {"theta": fit.theta, "beta": fit.beta}
 
 
-def _checked(case: Case, fit: Fragility, language: Language) -> dict[str, Any]:
-    """The kinematic check by NTC 2018, and the probability of collapse at the peak acceleration of the site."""
+def _checked(found: Curve, language: Language) -> dict[str, Any]:
+    """The kinematic check by NTC 2018, and the probability of collapse at the peak acceleration of the site.
+
+    Of a strip that bends before it opens the page calls no check of rigid blocks satisfied without saying so.
+    """
+    case, fit = found.case, found.fragility
     assert case.site is not None
     wall = case.population.walls[0]
     with silent():
         try:
-            check: CodeCheck = dd.check_ntc(
-                wall, case.site, knowledge_factor=case.knowledge_factor, behaviour=case.behaviour
-            )
+            check: CodeCheck = dd.check_ntc(wall, case.site, **{name: getattr(case, name) for name in CHECK_OPTIONS})
         except InputError as error:
             return {"refused": refusal(error)}
     answer: dict[str, Any] = {
         "pga": check.pga,
         "capacities": [[*key, value] for key, value in check.capacities.items() if key not in check.not_applicable],
-        "verdicts": [[*key, check._verdict(key)] for key in check.verified],
+        "verdicts": [
+            [*key, check._verdict(key), key in check.required] for key in check._verified or check.not_applicable
+        ],
+        "is_bent": any(one.code == BENDING for one in found.warnings),
         "alpha_0": check.value("mechanism", "", "alpha_0"),
         "notes": [warning_in_words(language, note) for note in check.notes],
     }
-    if fit.has_fit and fit.im == "pga":
-        answer["probability"] = float(fit(check.pga))
+    hazard = case.site.hazard
+    if hazard.mesh:
+        columns = (STATES, hazard.ag, hazard.f0, hazard.tc_star, hazard.return_periods)
+        answer["hazard"] = [list(row) for row in zip(*columns, strict=True)]
+    if (chance := chance_at(fit, check.pga)) is not None and check.verified is not None:
+        answer["probability"] = chance.value
+    answer["lines"] = [_in_json(one) for one in side_by_side(check, fit)]
     return answer
+
+
+def _in_json(line: StateLine) -> dict[str, Any]:
+    """A check at a glance as the page takes it: null for what there is none of."""
+    found = {**line._asdict(), "capacity": _known(line.capacity), "demand": _known(line.demand)}
+    found |= {"ratio": _known(line.ratio), "allowed_pga": _known(line.allowed_pga)}
+    for name in ("at_allowed", "at_site"):
+        if found[name] is not None:
+            found[name] = [_known(value) for value in found[name]]
+    return found
+
+
+def _known(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
 
 
 def _once(found: tuple[DondoloWarning, ...]) -> list[DondoloWarning]:

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 from importlib.util import find_spec
 from pathlib import Path
 
-from dondolo._base.arguments import argument_error
+from dondolo._base.arguments import one_of
 from dondolo._fortran.files import whole_file
-from dondolo.errors import DondoloError, InputError, Problem
+from dondolo.errors import DondoloError, InputError, Interrupted, Problem
+from dondolo.reporting.language import LANGUAGES
 
 #: Kinds of documents and their media types
 DOCUMENTS = {
@@ -23,6 +28,8 @@ DOCUMENTS = {
 _NEEDS = {"relazione_word": "docx"}
 # What a document may take [s]
 _LONGEST = 300.0
+# Seconds between two looks at whether it is made
+_PAUSE = 0.05
 
 
 def available_documents() -> list[str]:
@@ -30,7 +37,7 @@ def available_documents() -> list[str]:
     return [kind for kind in DOCUMENTS if kind not in _NEEDS or find_spec(_NEEDS[kind]) is not None]
 
 
-def make_document(text: str, kind: str, lang: str) -> bytes:
+def make_document(text: str, kind: str, lang: str, stop: threading.Event) -> bytes:
     """Run a case and write a document of its results.
 
     Parameters
@@ -41,6 +48,8 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
         One of `DOCUMENTS`.
     lang : {'en', 'it'}
         Its language.
+    stop : threading.Event
+        Once it is set, the process is killed.
 
     Returns
     -------
@@ -48,11 +57,13 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
 
     Raises
     ------
+    Interrupted
+        It was stopped.
     InputError
         The case cannot be run, or its document not be written, with the sentence of the library.
     """
-    if kind not in DOCUMENTS or lang not in ("en", "it"):
-        raise argument_error("not_a_word", "kind", f" = {kind!r}: must be one of {', '.join(DOCUMENTS)}")
+    one_of("kind", kind, DOCUMENTS)
+    one_of("lang", lang, LANGUAGES)
     with tempfile.TemporaryDirectory(prefix="dondolo-") as folder:
         case, made = (
             Path(folder) / "case.nml",
@@ -61,13 +72,40 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
         with whole_file(case) as part:
             part.write_text(text, encoding="utf-8", newline="\n")
         command = [sys.executable, "-W", "ignore", "-m", "dondolo.serve.documents", str(case), str(made), lang]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=_LONGEST, check=False)
-        except subprocess.TimeoutExpired:
-            raise DondoloError(f"{kind}: takes more than {_LONGEST:g} s") from None
-        if done.returncode != 0 or not made.exists():
-            raise _refused(done.stderr.replace(f"{folder}/", ""))
+        code, said = _run(command, Path(folder), kind, stop)
+        if code != 0 or not made.exists():
+            raise _refused(said.replace(f"{folder}/", ""))
         return made.read_bytes()
+
+
+def _run(command: list[str], folder: Path, kind: str, stop: threading.Event) -> tuple[int, str]:
+    """Run the process of a document, with its files in a folder: its exit code, and what it says on stderr."""
+    with tempfile.TemporaryFile(dir=folder) as said:
+        # In a group of its own Ctrl-C reaches the server alone, which ends it and what it has begun.
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=said,
+            env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
+            start_new_session=True,
+        )
+        try:
+            last = time.monotonic() + _LONGEST
+            while process.poll() is None:
+                if stop.wait(_PAUSE):
+                    raise Interrupted("interrupted")
+                if time.monotonic() > last:
+                    raise DondoloError(f"{kind}: takes more than {_LONGEST:g} s")
+        finally:
+            if process.poll() is None:
+                if sys.platform == "win32":
+                    process.kill()
+                else:
+                    os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+        said.seek(0)
+        return process.returncode, said.read().decode(errors="replace")
 
 
 def _refused(said: str) -> InputError:

@@ -10,6 +10,7 @@ from dondolo.analysis.plots_response import motion_span
 from dondolo.analysis.response import Response
 from dondolo.errors import InputError
 from dondolo.walls.drawing import support_height
+from dondolo.walls.drawing_loads import inner_face
 from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import Points, shape
 from dondolo.walls.wall import MasonryWall, Wall
@@ -39,7 +40,7 @@ def picture(wall: Wall) -> dict[str, Any] | None:
         ]
 
     thrusts = [
-        [t - (part.depth if part.depth is not None else t), part.height, part.force]
+        [t - (inner_face(wall, part.height) if part.depth is None else part.depth), part.height, part.force]
         for part in parts_of(wall, "thrusts")
     ]
     return {

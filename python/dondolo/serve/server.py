@@ -10,18 +10,23 @@ import asyncio
 import contextlib
 import hmac
 import json
+import logging
 import os
 import secrets
+import signal
 import socket
 import sys
 import tempfile
 import threading
 import webbrowser
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from types import FrameType
+from typing import Any, NoReturn
 
+import uvicorn
+from anyio import to_thread
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
@@ -29,13 +34,19 @@ from starlette.responses import JSONResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from dondolo._base.arguments import argument_error
+from dondolo._base.arguments import argument_error, as_count
+from dondolo._base.files import read_text
 from dondolo._fortran.library import constants, properties
+from dondolo.analysis.request import check_threads
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.reporting.properties_it import MEANINGS
-from dondolo.serve.bench import Bench, groups_of, refusal
+from dondolo.serve.bench import Bench, groups_of, other_task, refusal
 from dondolo.serve.documents import DOCUMENTS, available_documents, make_document
 
+# What answers may take at the end of the server [s]
+_GRACE = 1
+# What ends it: Ctrl-C, what systems and shells send, and the end of the terminal
+_SIGNALS = [name for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)]
 # Largest request [bytes]
 _LARGEST = 200_000
 # Files of the page and their types
@@ -64,6 +75,33 @@ _HEADERS = {
 
 # What answers a question, until an event is set
 _Work = Callable[[Mapping[str, Any], threading.Event], Response]
+
+
+class Works:
+    """What is being answered: all of it ends when the server does."""
+
+    def __init__(self) -> None:
+        self._stops: set[threading.Event] = set()
+        self._has_ended = False
+
+    @contextlib.contextmanager
+    def begun(self) -> Iterator[threading.Event]:
+        """An event that is set once the work is to end; its own end is that of the block."""
+        stop = threading.Event()
+        self._stops.add(stop)
+        if self._has_ended:
+            stop.set()
+        try:
+            yield stop
+        finally:
+            stop.set()
+            self._stops.discard(stop)
+
+    def end(self) -> None:
+        """Let all of it end, and what begins later; a handler of signals may call it at any instant."""
+        self._has_ended = True
+        for stop in tuple(self._stops):
+            stop.set()
 
 
 class Guard:
@@ -157,7 +195,9 @@ def _same(one: str, other: str) -> bool:
     return hmac.compare_digest(one.encode(), other.encode())
 
 
-def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, token: str) -> ASGIApp:
+def application(
+    bench: Bench, start: Mapping[str, Any], lang: str, port: int, token: str, works: Works | None = None
+) -> ASGIApp:
     """The server's answers, guarded.
 
     Parameters
@@ -172,11 +212,14 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
         Where it listens.
     token : str
         What the first visit must show.
+    works : Works, optional
+        Where its answers are known, so that they can be ended.
 
     Returns
     -------
     ASGI application
     """
+    works = works or Works()
     page = resources.files("dondolo.serve") / "page"
     content = {name: (page / name).read_bytes() for name in _FILES}
 
@@ -197,12 +240,15 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
                     raise ValueError("not an object")
             except (ValueError, RecursionError):
                 return JSONResponse({"error": "the request must be a JSON object", "errors": []}, 422)
-            stop = threading.Event()
-            left = asyncio.create_task(_set_when_left(request, stop))
-            try:
-                return await run_in_threadpool(_answered, work, asked, stop)
-            finally:
-                left.cancel()
+            with works.begun() as stop:
+                left = asyncio.create_task(_set_when_left(request, stop))
+                try:
+                    # The server does not wait at its end for what takes no notice of the event.
+                    return await to_thread.run_sync(_answered, work, asked, stop, abandon_on_cancel=True)
+                except asyncio.CancelledError:
+                    return PlainTextResponse("the server has ended", 503)
+                finally:
+                    left.cancel()
 
         return answer
 
@@ -211,9 +257,9 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
             raise argument_error("wrong_type", "text", ": must be that of a case")
         return JSONResponse({"settings": bench.open(asked["text"])})
 
-    def document(asked: Mapping[str, Any], _: threading.Event) -> Response:
-        kind, lang = str(asked.get("kind")), str(asked.get("lang", "en"))
-        made = make_document(bench.text(groups_of(asked.get("settings")), lang), kind, lang)
+    def document(asked: Mapping[str, Any], stop: threading.Event) -> Response:
+        kind, lang = str(asked.get("kind")), asked.get("lang", "en")
+        made = make_document(bench.text(groups_of(asked.get("settings")), lang), kind, lang, stop)
         return Response(made, media_type=DOCUMENTS[kind])
 
     routes = [
@@ -280,6 +326,15 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
     }
 
 
+class _Server(uvicorn.Server):
+    """A server that leaves signals to who runs it."""
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Capture none."""
+        yield
+
+
 def serve(case: str | None, records: str | None, port: int, is_opened: bool, threads: int, lang: str) -> None:
     """Serve the page until Ctrl-C.
 
@@ -298,9 +353,14 @@ def serve(case: str | None, records: str | None, port: int, is_opened: bool, thr
     lang : {'en', 'it'}
         Language of the page.
     """
-    import uvicorn
-
-    bench, start = beginning_of(case, records, threads)
+    as_count("--port", port, 0, 2**16 - 1)
+    check_threads(threads)
+    # Reading takes no notice of Ctrl-C before it is done; nothing is written, so that the process may end at once.
+    heard = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        bench, start = beginning_of(case, records, threads)
+    finally:
+        signal.signal(signal.SIGINT, heard)
     # By its name, for asyncio sets TCP_NODELAY on such sockets alone: without it an answer ends 40 ms after it begins.
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP) as listener:
         if os.name == "posix":
@@ -313,22 +373,58 @@ def serve(case: str | None, records: str | None, port: int, is_opened: bool, thr
         listener.listen()
         at, token = listener.getsockname()[1], secrets.token_urlsafe(32)
         address = f"http://127.0.0.1:{at}/?token={token}"
-        app = application(bench, start, lang, at, token)
+        works = Works()
+        app = application(bench, start, lang, at, token, works)
         config = uvicorn.Config(
-            app, log_level="warning", access_log=False, ws="none", lifespan="off", server_header=False
+            app,
+            log_level="warning",
+            access_log=False,
+            ws="none",
+            lifespan="off",
+            server_header=False,
+            timeout_graceful_shutdown=_GRACE,
         )
-        threading.Thread(target=warm_up, args=(bench, start, lang), daemon=True).start()
+
+        server = _Server(config)
+        ended: list[int] = []
+
+        def end(number: int, _: FrameType | None) -> None:
+            ended.append(number)
+            works.end()
+            server.should_exit, server.force_exit = True, len(ended) > 1
+            # Answers that are given up are no errors.
+            logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)
+
+        for name in _SIGNALS:
+            signal.signal(getattr(signal, name), end)
+        threading.Thread(target=_warm_up_until, args=(bench, start, lang, works), daemon=True).start()
         with tempfile.TemporaryDirectory(prefix="dondolo-") as folder:
             print(f"{address}\nThe page is for this computer only. Ctrl-C ends it.", flush=True)
             if is_opened:
-                _open(Path(folder), address)
-            uvicorn.Server(config).run(sockets=[listener])
+                # A browser in the terminal ends when the user leaves it.
+                threading.Thread(target=_open, args=(Path(folder), address), daemon=True).start()
+            server.run(sockets=[listener])
+    if ended:
+        _leave(ended[0])
 
 
-def warm_up(bench: Bench, start: Mapping[str, Any], lang: str) -> None:
+def _leave(number: int) -> NoReturn:
+    """End the process, as it must within a second or two, whatever its threads compute: nothing of it is left."""
+    if number == signal.SIGINT:
+        print("dondolo: interrupted", file=sys.stderr, flush=True)
+    # The exit code of other commands after Ctrl-C, and of shells for what a signal has ended
+    os._exit(1 if number == signal.SIGINT else 128 + number)
+
+
+def _warm_up_until(bench: Bench, start: Mapping[str, Any], lang: str, works: Works) -> None:
+    with works.begun() as stop:
+        warm_up(bench, start, lang, stop)
+
+
+def warm_up(bench: Bench, start: Mapping[str, Any], lang: str, stop: threading.Event | None = None) -> None:
     """Compute the curve that the page begins with while the browser starts: loading SciPy takes longer than a curve."""
-    with contextlib.suppress(DondoloError):
-        bench.curve({"settings": start, "auto": "levels" not in start.get("stripes", {}), "lang": lang})
+    with contextlib.suppress(DondoloError, Interrupted):
+        bench.curve({"settings": start, "auto": "levels" not in start.get("stripes", {}), "lang": lang}, stop)
 
 
 def beginning_of(case: str | None, records: str | None, threads: int) -> tuple[Bench, dict[str, Any]]:
@@ -340,15 +436,14 @@ def beginning_of(case: str | None, records: str | None, threads: int) -> tuple[B
     if records is None:
         import dondolo as dd
 
-        named = dd.read_case(path).settings["records"]["catalogue"]
+        read = dd.read_case(path)
+        if read.task != "stripes":
+            raise other_task(read)
+        named = read.settings["records"]["catalogue"]
         bench = Bench((path.parent / str(named)).resolve(), threads)
     else:
         bench = Bench(_catalogue(records), threads)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeError) as error:
-        raise InputError(f"{case}: cannot be read: {error}") from None
-    return bench, bench.open(text)
+    return bench, bench.open(read_text(path))
 
 
 def _catalogue(records: str | None) -> Path:

@@ -13,10 +13,12 @@ from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
+from dondolo.walls.chains import Chain
+from dondolo.walls.drawing_chain import draw_chain
 from dondolo.walls.drawing_loads import caption, draw_loads
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
-from dondolo.walls.shape import shape
+from dondolo.walls.shape import shape, wedges
 from dondolo.walls.wall import MasonryWall, Wall
 
 if TYPE_CHECKING:
@@ -32,6 +34,8 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, given: dict[str, Any
     from matplotlib.patches import Polygon
 
     options = Options(given)
+    if isinstance(wall, Chain):
+        return draw_chain(wall, rotation, ax, options, note)
     if isinstance(wall, TabulatedWall):
         return _draw_moment(wall, rotation, ax, options, note)
     assert isinstance(wall, MasonryWall)
@@ -181,7 +185,8 @@ def _free_height(wall: MasonryWall) -> tuple[float, bool]:
 
 def _reach(wall: MasonryWall) -> float:
     """How much room to leave on both sides [m]."""
-    return max(1.2 * wall.thickness, 0.22 * wall.height)
+    behind = [-float(np.min(wedge)) for wedge in wedges(wall)]
+    return max(1.2 * wall.thickness, 0.22 * wall.height, *(1.15 * reach for reach in behind))
 
 
 def frame(ax: Axes, wall: MasonryWall) -> None:

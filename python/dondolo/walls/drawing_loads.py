@@ -69,25 +69,23 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
         Where it is then.
     """
     size = 0.09 * wall.height
-    if isinstance(wall, TwoBlockWall):
-        if wall.overburden > 0.0:
-            _, _, active, other = now.blocks[1]
-            lifted = wall.overburden_inertia or 0.0
-            words = f"{_with_prefix(wall.overburden, 'N/m')} {_in_words(lifted, 0.0)}"
-            # The eccentricity is measured towards the active top hinge
-            part = 0.5 + wall.eccentricity / wall.thickness
-            _arrow_down(ax, other + part * (active - other), size, words, is_mass=lifted > 0.0)
-        return
+    if isinstance(wall, TwoBlockWall) and wall.overburden > 0.0:
+        _, _, active, other = now.blocks[1]
+        lifted = wall.overburden_inertia or 0.0
+        words = f"{_with_prefix(wall.overburden, 'N/m')} {_in_words(lifted, 0.0)}"
+        # The eccentricity is measured towards the active top hinge
+        part = 0.5 + wall.eccentricity / wall.thickness
+        _arrow_down(ax, other + part * (active - other), size, words, is_mass=lifted > 0.0)
     for load in parts_of(wall, "loads"):
         lifted, pushed = _PARTS[load.inertia] if load.inertia else (load.lifted, load.pushed)
         words = f"{_with_prefix(load.force, 'N/m')} {_in_words(lifted, pushed)}"
         _arrow_down(ax, _place(wall, load.depth, load.height, rotation), size, words, is_mass=lifted > 0.0)
-    for mass in parts_of(wall, "pushed_masses"):
+    for mass in parts_of(wall, "inertial_masses"):
         at = _place(wall, mass.depth, mass.height, rotation)
         ax.plot(*at, marker="s", color=style.BLACK, markersize=7, zorder=5)
         _words(ax, at, say("{mass:.4g} kg/m pushed", mass=mass.mass), (9, -3))
     for thrust in parts_of(wall, "thrusts"):
-        depth = _inner_face(wall, thrust.height) if thrust.depth is None else thrust.depth
+        depth = inner_face(wall, thrust.height) if thrust.depth is None else thrust.depth
         at = _place(wall, depth, thrust.height, rotation)
         arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
         ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
@@ -108,7 +106,7 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
         )
     for stones in parts_of(wall, "interlock"):
         _teeth(ax, wall, stones, rotation)
-    for bed in parts_of(wall, "beds"):
+    for bed in parts_of(wall, "distributed_springs"):
         for height in np.linspace(bed.bottom, bed.top, 5):
             words = _with_prefix(bed.stiffness, "N/m³") if height == bed.bottom else ""
             _spring(ax, wall, _place(wall, bed.depth, float(height), rotation), size, words)
@@ -152,7 +150,7 @@ def _frustum(ax: Axes, wall: MasonryWall, tie: Tie, rotation: float) -> None:
     if not (plate := tie.plate_height or tie.plate_diameter):
         return
     outer = tie.depth or 0.0
-    leaf = tie.leaf or _inner_face(wall, tie.height) - outer
+    leaf = tie.leaf or inner_face(wall, tie.height) - outer
     for way in (-1.0, 1.0):
         start = tie.height + 0.5 * way * plate
         depth = min(leaf, wall.height - start if way > 0.0 else start)
@@ -164,11 +162,11 @@ def _teeth(ax: Axes, wall: MasonryWall, stones: Any, rotation: float) -> None:
     """Stones that overlap those of a transverse wall; every tooth is several courses where they would not be seen."""
     step, overlap = wall.height / min(24, max(2, int(wall.height / stones.course))), stones.overlap
     for bottom in np.arange(0.0, wall.height - 1.5 * step, 2.0 * step):
-        inner = _inner_face(wall, bottom + 0.5 * step)
+        inner = inner_face(wall, bottom + 0.5 * step)
         corners = [(inner, bottom), (inner + overlap, bottom), (inner + overlap, bottom + step), (inner, bottom + step)]
         places = [_place(wall, depth, height, rotation) for depth, height in corners]
         ax.fill(*np.transpose(places), facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=0.8, zorder=3)
-    at = _place(wall, _inner_face(wall, wall.height / 3.0) + overlap, wall.height / 3.0, rotation)
+    at = _place(wall, inner_face(wall, wall.height / 3.0) + overlap, wall.height / 3.0, rotation)
     _words(ax, at, say("friction"), (-4, -4), ha="right")
 
 
@@ -180,7 +178,7 @@ def _in_words(lifted: float, pushed: float) -> str:
     return ", ".join(what if part == 1.0 else decimal(f"{100.0 * part:.3g} % {what}") for part, what in parts if part)
 
 
-def _inner_face(wall: MasonryWall, height: float) -> float:
+def inner_face(wall: MasonryWall, height: float) -> float:
     """Depth of the inner face at a height, the innermost where storeys meet."""
     slack = 1e-6 * wall.height
     inner = [
@@ -192,9 +190,9 @@ def _inner_face(wall: MasonryWall, height: float) -> float:
 
 
 def _place(wall: MasonryWall, depth: float, height: float, rotation: float) -> Points:
-    """Where a point of one block is."""
+    """Where a point of a wall is."""
     at: Points = moved(wall, np.array([[wall.thickness - depth, height]]), abs(rotation))[0]
-    # What rocks to both sides carries in its middle: the mirror image is the same load.
+    # What rocks to both sides carries in its middle, or as a strip the mirror image: docs/theory.md, section 2
     return np.array([wall.thickness - at[0], at[1]]) if rotation < 0.0 else at
 
 

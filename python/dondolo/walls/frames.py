@@ -7,13 +7,19 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from dondolo._base.arguments import argument_error, shortened
-from dondolo._fortran.walls import WallData, read_walls
+from dondolo._fortran.library import properties
+from dondolo._fortran.walls import WALL_PROPERTIES, WallTable, is_note, read_walls
 from dondolo._storage import tables
 from dondolo.errors import InputError
 
+# Columns of texts; a number read in the place of one has lost its form: 1.10 is 1.1
+_TEXTS = frozenset(row.name for row in (*WALL_PROPERTIES, *properties("row")) if row.kind == "text")
 
-def read_frame(frame: Any, gravity: float | None, occurrence: str) -> tuple[list[WallData], dict[str, Any]]:
+
+def read_frame(frame: Any, gravity: float | None, occurrence: str) -> tuple[WallTable, dict[str, Any]]:
     """Read a data frame as the file that it would be: its walls, and what `Population` has of each."""
     table = _columns(frame)
     with tempfile.TemporaryDirectory() as folder:
@@ -39,7 +45,16 @@ def _columns(frame: Any) -> tables.Table:
     given = frame.astype(object).where(frame.notna(), None)
     table = {name: given.iloc[:, i].tolist() for i, name in enumerate(names)}
     for name, column in table.items():
+        is_text = name.lower() in _TEXTS
+        if is_note(name):
+            # A date, say
+            plain = (type(None), bool, int, float, str)
+            table[name] = [one if isinstance(one, plain) else str(one) for one in column]
+            continue
         for i, value in enumerate(column):
+            if is_text and isinstance(value, (float, np.floating)):
+                sentence = f".iloc[{i}]: {name} = {value}: must be a string (read_csv(..., dtype={{{name!r}: str}}))"
+                raise argument_error("not_a_string", "frame", sentence)
             try:
                 tables.cell(value, tables.shortest)
             except (TypeError, ValueError):

@@ -10,15 +10,16 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_path
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number, as_path
 from dondolo._base.wording import say
-from dondolo._fortran.walls import WallData
+from dondolo._fortran.walls import WallData, bending_period
 from dondolo._storage.saved import part_of_results
-from dondolo.walls.parts import Bed, Interlock, Load, PushedMass, Section, Spring, Thrust, Tie
-from dondolo.walls.wall import DEFAULT, MasonryWall, Terms, Wall
+from dondolo.walls.chains import Chain
+from dondolo.walls.parts import DistributedSpring, InertialMass, Interlock, Load, Section, Spring, Thrust, Tie, Wedge
+from dondolo.walls.wall import DEFAULT, MasonryWall, Terms, Wall, upload
 
 # What the package exports of the walls: a new mechanism is added here alone
-__all__ = ["FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
+__all__ = ["Chain", "FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -33,12 +34,13 @@ class BlockWall(MasonryWall):
     hinge_depth: float | None = None
     compressive_strength: float | None = None
     stress_block: float | None = None
+    young_modulus: float | Sequence[float] | None = None
     edge_radius: float | None = None
     loads: Sequence[Load] = ()
-    pushed_masses: Sequence[PushedMass] = ()
+    inertial_masses: Sequence[InertialMass] = ()
     thrusts: Sequence[Thrust] = ()
     springs: Sequence[Spring] = ()
-    beds: Sequence[Bed] = ()
+    distributed_springs: Sequence[DistributedSpring] = ()
 
 
 @part_of_results
@@ -54,6 +56,9 @@ class OneSidedWall(BlockWall):
         Thickness of the wall [m].
     density : float, optional
         Density of the masonry [kg/m3], 1800 if left out.
+    base_level : float, optional
+        Height of its base above the ground, on a building that is not given: a check by a code has no spectrum there;
+        hinge_level sets it [m].
     restitution : {'default', 'sorrentino', 'impulse'}, optional
         Model of the impacts, 'default' if left out: against the walls behind that of Sorrentino, AlShawa and Decanini
         (2011) for the bare block; 'impulse' is the same balance with the depth of the hinge and the masses that the
@@ -96,22 +101,31 @@ class OneSidedWall(BlockWall):
         Strength of the masonry, from which that depth follows [Pa].
     stress_block : float, optional
         Stress in the compressed part of the base / that strength, 0.85 if not given.
+    young_modulus : float or sequence of float, optional
+        Young's modulus of the masonry of a free element, reduced for cracks: one value or a range, for checks [Pa].
+        The wall is then a free element; docs/code_checks.md has the values of Table C8.5.I.
+    free : bool, optional
+        Is the wall a free element, such as a parapet, which no transverse walls hold?
     edge_radius : float, optional
         Radius of the edge that the wall rolls on, which is also the depth of its hinge at rest [m].
     loads : sequence of Load, optional
         Vertical loads that go with the wall.
-    pushed_masses : sequence of PushedMass, optional
+    inertial_masses : sequence of InertialMass, optional
         Masses that the wall pushes and does not carry.
     thrusts : sequence of Thrust, optional
         Horizontal forces outwards.
     springs : sequence of Spring, optional
         Springs that pull and push.
-    beds : sequence of Bed, optional
+    distributed_springs : sequence of DistributedSpring, optional
         Springs spread over a height.
     ties : sequence of Tie, optional
         Ties that hold the wall.
     interlock : Interlock, optional
         Stones that overlap those of transverse walls, whose friction holds the wall.
+    facade_length : float, optional
+        Length of the facade that the wedges belong to: their mass is divided by it [m].
+    wedges : sequence of Wedge, optional
+        Wedges of transverse walls that turn with the wall. 'default' is then 'impulse', the only model of restitution.
     masonry_compression : float, optional
         Mean strength of the masonry in compression at plates of ties; compressive_strength if not given [Pa].
     masonry_shear : float, optional
@@ -159,6 +173,8 @@ class OneSidedWall(BlockWall):
     _: KW_ONLY
     ties: Sequence[Tie] = ()
     interlock: Interlock | None = None
+    facade_length: float | None = None
+    wedges: Sequence[Wedge] = ()
     masonry_compression: float | None = None
     masonry_shear: float | None = None
     masonry_tension: float | None = None
@@ -166,6 +182,7 @@ class OneSidedWall(BlockWall):
     masonry_knowledge_factor: float | None = None
     bearing_factor: float | None = None
     leaves: float | None = None
+    free: bool | None = None
     hinge_level: InitVar[float | Sequence[float] | None] = None
     hinge_at: InitVar[Literal["storeys"] | None] = None
 
@@ -211,7 +228,14 @@ class TwoBlockWall(MasonryWall):
     Parameters
     ----------
     hinge : float, optional
-        Height of the intermediate hinge / height of the wall, 0.5 if left out.
+        Height of the intermediate hinge / height of the wall; where alpha_0 is least if left out, as the code asks.
+    hinge_range : sequence of float, optional
+        Lowest and highest such height among which the weakest hinge is looked for, 0.1 and 0.9 if not given.
+    elastic_period : float, optional
+        Period of the small vibrations of the strip between its supports, load included, before its joints open [s]:
+        such a strip bends before it rocks (docs/theory.md, section 7). Rigid blocks if left out.
+    elastic_damping : float, optional
+        Damping ratio of these vibrations, with elastic_period; 0.05 if not given.
     overburden : float, optional
         Vertical load on the top, per metre of wall [N/m], 0 if left out.
     overburden_inertia : float, optional
@@ -225,9 +249,18 @@ class TwoBlockWall(MasonryWall):
     bearing_distance : float, optional
         Distance of the load's resultant from the inner or the outer face [m]: half the length that joists bear on the
         wall, a third where they bear harder on its edge.
+    loads : sequence of Load, optional
+        Vertical loads that go with the wall, such as floors between its base and its top.
+    inertial_masses : sequence of InertialMass, optional
+        Masses that the wall pushes and does not carry.
+    thrusts : sequence of Thrust, optional
+        Horizontal forces outwards; they do not decay.
+    ties : sequence of Tie, optional
+        Ties that hold the wall between its base and its top; the masonry at their plates is that of `OneSidedWall`.
 
     Notes
     -----
+    The wall keeps the hinge that it has found: ``replace(wall, thickness=0.3, hinge=None)`` finds that of another one.
     The wall keeps a bearing as its eccentricity. It is that of a wall that folds outwards; docs/theory.md, section 2.
 
     Examples
@@ -245,27 +278,78 @@ class TwoBlockWall(MasonryWall):
     mechanism: ClassVar[str] = "two_block"
 
     hinge: float = DEFAULT
+    hinge_range: Sequence[float] | None = None
+    elastic_period: float | None = None
+    elastic_damping: float | None = None
     overburden: float = DEFAULT
     overburden_inertia: float | None = None
     eccentricity: float = DEFAULT
     hinge_depth: float | None = None
     compressive_strength: float | None = None
     stress_block: float | None = None
+    loads: Sequence[Load] = ()
+    inertial_masses: Sequence[InertialMass] = ()
+    thrusts: Sequence[Thrust] = ()
+    ties: Sequence[Tie] = ()
+    masonry_compression: float | None = None
+    masonry_shear: float | None = None
+    masonry_tension: float | None = None
+    masonry_friction: float | None = None
+    masonry_knowledge_factor: float | None = None
+    bearing_factor: float | None = None
     bearing: InitVar[Literal["inner", "outer", "centre"] | None] = None
     bearing_distance: InitVar[float | None] = None
 
     def __post_init__(self, bearing: str | None, bearing_distance: float | None) -> None:
         self._understand(bearing=bearing, bearing_distance=bearing_distance)
 
+    def bending_period(self, young_modulus: float) -> float:
+        """Period of the small vibrations of the strip between pinned ends: a proposal for `elastic_period`.
+
+        Parameters
+        ----------
+        young_modulus : float
+            Modulus of elasticity of the masonry, cracks included [Pa].
+
+        Returns
+        -------
+        float
+            T_1 = (2/pi) H^2 sqrt(m/(E I c)), c = 1 - (N + W/2) H^2/(pi^2 E I) [s] (docs/theory.md, section 7).
+            A measured period comes first: joints close under load, so that a wall gets stiffer with it, and this
+            formula softer.
+
+        Raises
+        ------
+        InputError
+            A modulus that is not positive, or under which the load buckles the strip.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> strip = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, overburden_inertia=0.0, hinge=0.6)
+        >>> round(strip.bending_period(1e9), 6)
+        0.106951
+        """
+        modulus = as_number("young_modulus", young_modulus)
+        if not modulus > 0.0:
+            raise argument_error("out_of_range", "young_modulus", f" = {modulus:.6g}: must be positive")
+        period = bending_period(upload((self,)), modulus)
+        if not period < 1e9:
+            raise argument_error("out_of_range", "young_modulus", f" = {modulus:.6g}: the load buckles the strip")
+        return period
+
 
 # Columns of the table of a tabulated wall
 TERMS = ("rotation", "inertia", "lever", "moment", "vertical_lever")
+
+# Columns that checks need besides
+CHECK_TERMS = ("travel", "weighted_lever")
 
 # Rotations at which functions are asked for their values
 _NODES = 41
 
 #: A term of a tabulated wall: its values, one for all rotations, or a function of the rotation
-Term = float | ArrayLike | Callable[[FloatArray], ArrayLike]
+Term = float | Sequence[float] | ArrayLike | Callable[[FloatArray], ArrayLike]
 
 
 @part_of_results
@@ -290,6 +374,15 @@ class TabulatedWall(Wall):
         Restoring moment G - Q at each rotation, per metre of wall [N m/m].
     vertical_lever : array_like, float or callable, optional
         Sum of the masses times their vertical levers S at each rotation, for vertical ground motion [kg m/m].
+    travel : array_like, float or callable, optional
+        Displacement d of the equivalent oscillator (C8.7.1.4) at each rotation, for checks [m].
+    weighted_lever : array_like, float or callable, optional
+        Sum of all weights times their horizontal levers at each rotation, for checks; gravity times lever if not given
+        and nothing is carried [N m/m].
+    weight : sequence of float, optional
+        Weight of each body and load, for checks, per metre of wall [N/m].
+    displacement : sequence of float, optional
+        How far each of them moves outwards for a unit of rotation at rest [m].
     sides : float, optional
         1: the wall can rock to one side only; 2: to both, and changes side at every impact. Must be given.
     top_share : float, optional
@@ -339,11 +432,15 @@ class TabulatedWall(Wall):
 
     mechanism: ClassVar[str] = "tabulated"
 
-    rotation: ArrayLike = DEFAULT
+    rotation: Sequence[float] | ArrayLike = DEFAULT
     inertia: Term = DEFAULT
     lever: Term = DEFAULT
     moment: Term = DEFAULT
     vertical_lever: Term | None = None
+    travel: Term | None = None
+    weighted_lever: Term | None = None
+    weight: Sequence[float] | None = None
+    displacement: Sequence[float] | None = None
     sides: float = DEFAULT
     top_share: float | None = None
     top_tilt: float | None = None
@@ -360,7 +457,7 @@ class TabulatedWall(Wall):
         if np.ndim(self.rotation) == 0:
             q = 0.5 * q * (1.0 - np.cos(np.pi * np.arange(_NODES) / (_NODES - 1)))
         object.__setattr__(self, "rotation", q)
-        for name in TERMS[1:]:
+        for name in (*TERMS[1:], *CHECK_TERMS):
             term = getattr(self, name)
             if term is None:
                 continue
@@ -378,12 +475,12 @@ class TabulatedWall(Wall):
         rotation = np.asarray(self.rotation)
         table = {"rotations": rotation.size, "last": float(rotation[-1]), "misfit": float(self.misfit)}
         own = {say("table"): say("{rotations} rotations up to {last:.6g} rad, misfit {misfit:.2g}", **table)}
-        left_out = (*TERMS, "R", "alpha")
+        left_out = (*TERMS, *CHECK_TERMS, "R", "alpha")
         return [*own.items(), *((what, text) for what, text in facts.items() if what not in left_out)]
 
 
 MECHANISMS: dict[str, type[Wall]] = {
-    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, TabulatedWall)
+    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, TabulatedWall, Chain)
 }
 
 

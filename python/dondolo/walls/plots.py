@@ -12,7 +12,8 @@ from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
 from dondolo.walls.population import Kind, Population
-from dondolo.walls.wall import MasonryWall
+from dondolo.walls.wall import properties_of
+from dondolo.walls.wall_rows import triggers_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,10 +27,10 @@ def draw_population(population: Population, ax: Iterable[Axes] | None, by: Kind,
     one_of("by", by, get_args(Kind))
     options = Options(given)
     above, below = style.panels(ax, 2, (6.0, 6.0), height_ratios=(3, 2))
-    keys = np.array(population.groups if by == "group" else [wall.mechanism for wall in population.walls])
-    height = np.array([wall.height for wall in population.walls])
-    thickness = np.array([wall.thickness if isinstance(wall, MasonryWall) else 0.0 for wall in population.walls])
-    trigger = np.array([wall.trigger_acceleration / wall.gravity for wall in population.walls])
+    keys = np.array(population.group_names if by == "group" else properties_of(population.walls, "mechanism"))
+    height = np.array(properties_of(population.walls, "height"))
+    thickness = np.array([one or 0.0 for one in properties_of(population.walls, "thickness")])
+    trigger = np.array(triggers_of(population.walls))
     edges = np.linspace(0.0, 1.02 * trigger.max(), _BINS + 1)
     for i, key in enumerate(dict.fromkeys(keys.tolist())):
         here = keys == key

@@ -25,10 +25,10 @@ from dondolo._fortran.walls import (
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
-from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.rows import UNNAMED
 from dondolo.walls.table import population_columns
-from dondolo.walls.wall import Wall, property_of, walls_table
+from dondolo.walls.wall import Wall, properties_of, walls_table
+from dondolo.walls.wall_columns import WallColumns, statics_of
 from dondolo.walls.wall_rows import WallRows
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from dondolo.walls.sampling import Property
 
 # Words of each row
-_OF_ROWS = ("groups", "facades", "occurrence", "alternatives")
+_OF_ROWS = ("group_names", "facades", "occurrence", "alternatives")
 
 #: What distinguishes walls in a figure
 Kind = Literal["mechanism", "group"]
@@ -56,11 +56,12 @@ class Population(WallRows, Shown):
 
     Attributes
     ----------
-    walls : tuple of Wall
-        The walls, each with one mechanism: the rows of the population.
+    walls : sequence of Wall
+        The walls, each with one mechanism: the rows of the population. Several are kept as columns, and a wall is made
+        when it is asked for.
     weights : ndarray, shape (rows,)
         Their weights, not negative and not all zero; 1 each if left out.
-    groups : tuple of str
+    group_names : tuple of str
         Name of the group that each belongs to, for curves by group; empty if left out.
     p_occ : ndarray, shape (rows,)
         Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
@@ -75,6 +76,9 @@ class Population(WallRows, Shown):
         Empty if left out: exclusive mechanisms are alternatives each.
     origin : tuple of str
         Origin of the walls, in lines for the header of a file.
+    notes : mapping of str to tuple of str
+        What is kept with the walls and decides nothing, such as an address: names that begin with ``x_`` or
+        ``note``, and a text for each row.
 
     Raises
     ------
@@ -91,7 +95,7 @@ class Population(WallRows, Shown):
     ...         dd.OneSidedWall(6.0, 0.5, name="b"),
     ...     ],
     ...     weights=[2.0, 2.0, 5.0],
-    ...     groups=["low", "low", "high"],
+    ...     group_names=["low", "low", "high"],
     ...     p_occ=[0.4, 0.6, 1.0],
     ... )
     >>> population
@@ -118,8 +122,8 @@ class Population(WallRows, Shown):
         ----------
         path : path
             A CSV table: one row per mechanism of a wall, columns named as the parameters of the walls, and weight,
-            group, p_occ, occurrence, alternative and facade. A row with hinge levels becomes a wall for each, all of
-            one facade.
+            group, p_occ, occurrence, alternative and facade; others begin with ``x_`` or ``note``, and are kept as
+            `notes`. A row with hinge levels becomes a wall for each, all of one facade.
         gravity : float, optional
             [m/s2], 9.81 if left out.
         occurrence : {'independent', 'exclusive'}
@@ -146,7 +150,7 @@ class Population(WallRows, Shown):
         one_of("occurrence", occurrence, OCCURRENCE)
         walls, of_rows = read_walls(path, gravity, occurrence)
         origin = (f"read from {Path(path).name}",)
-        return Population(tuple(wall_from(data) for data in walls), **of_rows, origin=origin)
+        return Population(WallColumns.of_data(walls), **of_rows, origin=origin)
 
     @classmethod
     def from_frame(cls, frame: Any, *, gravity: float | None = None, occurrence: str = INDEPENDENT) -> Population:
@@ -155,7 +159,8 @@ class Population(WallRows, Shown):
         Parameters
         ----------
         frame : pandas.DataFrame
-            Columns and rows as in the table of `Population.from_csv`; NaN and None for what is not given.
+            Columns and rows as in the table of `Population.from_csv`; NaN and None for what is not given. Names are
+            strings: floats are refused, for pandas reads 1.10 as 1.1 without ``dtype={"name": str}``.
         gravity : float, optional
             [m/s2], 9.81 if left out.
         occurrence : {'independent', 'exclusive'}
@@ -187,7 +192,7 @@ class Population(WallRows, Shown):
 
         one_of("occurrence", occurrence, OCCURRENCE)
         walls, of_rows = read_frame(frame, gravity, occurrence)
-        return cls(tuple(wall_from(data) for data in walls), **of_rows, origin=("read from a data frame",))
+        return cls(WallColumns.of_data(walls), **of_rows, origin=("read from a data frame",))
 
     @classmethod
     def sample(
@@ -348,19 +353,20 @@ class Population(WallRows, Shown):
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: the properties of its walls as columns."""
-        columns = {row.name: [property_of(wall, row.name) for wall in self.walls] for row in WALL_PROPERTIES}
+        columns = {row.name: properties_of(self.walls, row.name) for row in WALL_PROPERTIES}
         return {
             "properties": {
                 name: column if None in column or name in WALL_LISTS else np.array(column)
                 for name, column in columns.items()
             },
-            "gravity": np.array([wall.gravity for wall in self.walls]),
+            "gravity": np.array(statics_of(self.walls, "gravity")),
             **{name: getattr(self, name) for name in ("weights", *_OF_ROWS, "p_occ", "origin")},
+            **({"notes": dict(self.notes)} if self.notes else {}),
         }
 
     @classmethod
     def _restored(cls, properties: dict[str, Any], gravity: FloatArray, **more: Any) -> Population:
-        return cls(tuple(map(wall_from, describe_walls(len(gravity), properties, gravity))), **more)
+        return cls(WallColumns.of_data(describe_walls(len(gravity), properties, gravity)), **more)
 
     @overload
     def __getitem__(self, index: int) -> Wall: ...
@@ -388,7 +394,7 @@ class Population(WallRows, Shown):
             No rows are selected, or the index does not select rows.
         """
         if isinstance(index, (int, np.integer)):
-            return self.walls[index]
+            return self.walls[int(index)]
         try:
             rows = np.arange(len(self))[index if isinstance(index, slice) else np.asarray(index)]
         except (IndexError, TypeError, ValueError):
@@ -416,22 +422,27 @@ class Population(WallRows, Shown):
         """
         if not isinstance(other, Population):
             return NotImplemented
-        names = {wall.name for wall in self.walls} - {UNNAMED}
-        for wall, facade in zip(other.walls, other.facades, strict=True):
-            if wall.name in names:
-                raise argument_error(
-                    "not_together", "name", f" = {wall.name!r}: both populations have a wall of this name"
-                )
+        names = set(properties_of(self.walls, "name")) - {UNNAMED}
+        for name, facade in zip(properties_of(other.walls, "name"), other.facades, strict=True):
+            if name in names:
+                raise argument_error("not_together", "name", f" = {name!r}: both populations have a wall of this name")
             if facade and facade in self.facades:
                 raise argument_error(
                     "not_together", "facade", f" = {facade!r}: both populations have a facade of this name"
                 )
+        both = self.walls, other.walls
+        columns = [one for one in both if isinstance(one, WallColumns)]
+        nothing = [("",) * len(one) for one in (self, other)]
         return Population(
-            self.walls + other.walls,
+            WallColumns.join(columns) if len(columns) == 2 else (*self.walls, *other.walls),
             np.concatenate([self.weights, other.weights]),
             p_occ=np.concatenate([self.p_occ, other.p_occ]),
             **{name: getattr(self, name) + getattr(other, name) for name in _OF_ROWS},
             origin=self.origin + other.origin,
+            notes={
+                name: (*self.notes.get(name, nothing[0]), *other.notes.get(name, nothing[1]))
+                for name in (*self.notes, *(name for name in other.notes if name not in self.notes))
+            },
         )
 
     def group(self, name: str) -> Population:
@@ -451,18 +462,20 @@ class Population(WallRows, Shown):
         InputError
             No wall belongs to it.
         """
-        one_of("group", name, self.groups)
-        return self._chosen([i for i, group in enumerate(self.groups) if group == name])
+        one_of("group", name, self.group_names)
+        return self._chosen([i for i, group in enumerate(self.group_names) if group == name])
 
     def _chosen(self, chosen: Sequence[int]) -> Population:
         """A population of some of the walls."""
         index = np.fromiter(chosen, dtype=np.intp)
+        walls = self.walls.take(index) if isinstance(self.walls, WallColumns) else [self.walls[i] for i in chosen]
         return Population(
-            tuple(self.walls[i] for i in chosen),
+            walls,
             self.weights[index],
             p_occ=self.p_occ[index],
             **{name: tuple(getattr(self, name)[i] for i in chosen) for name in _OF_ROWS},
             origin=self.origin,
+            notes={name: tuple(texts[i] for i in chosen) for name, texts in self.notes.items()},
         )
 
     def plot(self, ax: Iterable[Axes] | None = None, *, by: Kind = "mechanism", **options: Any) -> Axes:
@@ -533,5 +546,7 @@ class Population(WallRows, Shown):
         tables.write_lines(path, lines)
 
     def _table(self) -> TableColumns:
-        words = zip(self.groups, self.facades, self.occurrence, self.alternatives, strict=True)
-        return walls_table(self.walls, words, self.weights, self.p_occ)
+        words = zip(
+            self.group_names, self.facades, self.occurrence, self.alternatives, *self.notes.values(), strict=True
+        )
+        return walls_table(self.walls, words, self.weights, self.p_occ, tuple(self.notes))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, argument_error, as_array, one_of
 from dondolo._fortran.library import as_text, constants
-from dondolo._fortran.walls import EXCLUSIVE, INDEPENDENT, OCCURRENCE
+from dondolo._fortran.walls import EXCLUSIVE, INDEPENDENT, OCCURRENCE, is_note, shared
 from dondolo.errors import InputError
-from dondolo.walls.wall import Wall
 
 # Name that Fortran gives a wall without one
 UNNAMED = "wall"
@@ -26,40 +25,62 @@ def several(name: str, values: Any, what: str) -> tuple[Any, ...]:
     return tuple(values)
 
 
-def words_of_rows(name: str, given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
-    """Names of groups or facades, one for each wall; empty where there is none."""
+def words_of_rows(name: str, given: Any, walls: Sequence[str]) -> tuple[str, ...]:
+    """Names of groups or facades, one for each wall of these names; empty where there is none."""
     words = ("",) * len(walls) if given is None else several(name, given, "a name for each wall")
     if len(words) != len(walls):
         raise InputError(f"{len(walls)} walls, {len(words)} {name}: must be as many")
+    known = set[str]()
     for wall, word in zip(walls, words, strict=True):
-        _on_one_line(name.removesuffix("s"), word, wall)
+        if not isinstance(word, str) or word not in known:
+            _on_one_line(name if is_note(name) else name.removesuffix("_names").removesuffix("s"), word, wall)
+            known.add(word)
     # A table cannot tell blanks from nothing.
-    return tuple(word if word.strip(" ") else "" for word in words)
+    return shared([word if word.strip(" ") else "" for word in words])
 
 
-def named_walls(walls: Sequence[Wall]) -> tuple[Wall, ...]:
-    """Walls of which each that was given no name has one of its own."""
-    taken = {wall.name for wall in walls}
+def notes_of_rows(given: Any, walls: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """Columns that are kept with the walls as they stand, by their names: a text for each wall."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise argument_error("wrong_type", "notes", f" = {given!r}: must be a mapping of names to texts of each wall")
+    names = [name.lower() if isinstance(name, str) else name for name in given]
+    for name in given:
+        as_text("notes", name)
+        if not is_note(name):
+            raise argument_error("unknown_name", "notes", f": {name!r}: must begin with x_ or note")
+        if names.count(name.lower()) > 1:
+            raise argument_error("not_together", "notes", f": {name!r} is there twice")
+    # A table has no blanks at the ends of lines.
+    return {
+        name: shared([word.rstrip(" ") for word in words_of_rows(name, words, walls)]) for name, words in given.items()
+    }
+
+
+def names_of_rows(names: Sequence[str]) -> tuple[str, ...]:
+    """Names of walls, of which each that was given no name has one of its own."""
+    taken = set(names)
     named, number = [], 0
-    for i, wall in enumerate(walls, 1):
-        if wall.name == UNNAMED:
+    for i, name in enumerate(names, 1):
+        if name == UNNAMED:
             number = max(number + 1, i)
             while f"wall {number}" in taken:
                 number += 1
-            wall = wall._renamed(f"wall {number}")
-        named.append(wall)
+            name = f"wall {number}"
+        named.append(name)
     return tuple(named)
 
 
-def _on_one_line(what: str, text: str, wall: Wall) -> None:
+def _on_one_line(what: str, text: str, wall: str) -> None:
     """Check a text of a wall."""
     try:
         as_text(what, text)
     except InputError as error:
-        raise error.placed(f"wall {wall.name!r}") from None
+        raise error.placed(f"wall {wall!r}") from None
 
 
-def shares_of_rows(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> FloatArray:
+def shares_of_rows(name: str, values: ArrayLike | None, walls: Sequence[str], largest: float) -> FloatArray:
     """Numbers of the walls, between 0 and the largest allowed; 1 each if left out."""
     shares = np.ones(len(walls)) if values is None else as_array(name, values).copy()
     if len(shares) != len(walls):
@@ -68,12 +89,12 @@ def shares_of_rows(name: str, values: ArrayLike | None, walls: Sequence[Wall], l
     if wrong.any():
         first = int(np.argmax(wrong))
         allowed = "must not be negative" if largest == math.inf else f"must lie between 0 and {largest:g}"
-        raise InputError(f"wall {walls[first].name!r}: {name} = {shares[first]}: {allowed}")
+        raise InputError(f"wall {walls[first]!r}: {name} = {shares[first]}: {allowed}")
     shares.flags.writeable = False
     return shares
 
 
-def occurrence_of_rows(given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
+def occurrence_of_rows(given: Any, walls: Sequence[str]) -> tuple[str, ...]:
     """How the mechanisms of each wall occur; one word is that of all."""
     if given is None:
         given = INDEPENDENT
@@ -81,8 +102,9 @@ def occurrence_of_rows(given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
     if len(words) != len(walls):
         raise InputError(f"{len(walls)} walls, {len(words)} words of occurrence: must be as many")
     for word in words:
-        one_of("occurrence", word, OCCURRENCE)
-    return words
+        if word not in OCCURRENCE:
+            one_of("occurrence", word, OCCURRENCE)
+    return shared(words)
 
 
 def numbered_alternatives(
@@ -118,7 +140,8 @@ def numbered_alternatives(
 
 
 def check_names(
-    walls: Sequence[Wall],
+    walls: Sequence[str],
+    mechanisms: Sequence[str],
     of_rows: Sequence[tuple[float, str, str]],
     facades: Sequence[str],
     alternatives: Sequence[str],
@@ -130,19 +153,19 @@ def check_names(
     first: dict[str, int] = {}
     first_of: dict[str, int] = {}
     for i, (wall, facade) in enumerate(zip(walls, facades, strict=True)):
-        one, whole = first.setdefault(wall.name, i), "wall"
-        if one != i and (walls[i - 1].name != wall.name or facades[i - 1] != facade):
+        one, whole = first.setdefault(wall, i), "wall"
+        if one != i and (walls[i - 1] != wall or facades[i - 1] != facade):
             raise argument_error(
                 "not_together",
                 "name",
-                f" = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows",
+                f" = {wall!r}: another wall has this name; mechanisms of one wall must be on consecutive rows",
             )
         # Exclusive alternatives may have a mechanism in common, each with a hinge of its own.
         alone = of_rows[i][-1] == EXCLUSIVE and not alternatives[i]
         others = [] if alone else [j for j in range(one, i) if alternatives[j] == alternatives[i]]
-        if wall.mechanism in (walls[j].mechanism for j in others):
+        if mechanisms[i] in (mechanisms[j] for j in others):
             raise argument_error(
-                "not_together", "name", f" = {wall.name!r}: another wall of this name has the same mechanism"
+                "not_together", "name", f" = {wall!r}: another wall of this name has the same mechanism"
             )
         if facade:
             one, whole = first_of.setdefault(facade, i), "facade"
@@ -152,7 +175,7 @@ def check_names(
         if of_rows[i] != of_rows[one]:
             same = "weight and group" if of_rows[i][:2] != of_rows[one][:2] else "occurrence"
             raise argument_error(
-                "not_together", "name", f" = {wall.name!r}: mechanisms of one {whole} must have the same {same}"
+                "not_together", "name", f" = {wall!r}: mechanisms of one {whole} must have the same {same}"
             )
     for facade in first_of:
         if facade in first and facades[first[facade]] != facade:

@@ -19,9 +19,9 @@ from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import INDEPENDENT, WALL_LISTS, WALL_NUMBERS, WALL_PROPERTIES, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution, no_distribution
-from dondolo.walls.mechanisms import MECHANISMS, wall_from
+from dondolo.walls.mechanisms import MECHANISMS
 from dondolo.walls.population import Population
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall_columns import WallColumns
 
 Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]
@@ -67,9 +67,10 @@ def sample_population(
         walls.append(make_walls(mechanism, names, values, gravity))
         p_occ.append(values.get("p_occ", np.ones(n)))
     return Population(
-        tuple(wall for row in zip(*walls, strict=True) for wall in row),
+        # Wall by wall, the mechanisms of each in their order
+        WallColumns.join(walls).take(np.arange(n * len(own)).reshape(len(own), n).T.ravel()),
         np.repeat(common.get("weight", np.ones(n)), len(own)),
-        groups=(group,) * (n * len(own)),
+        group_names=(group,) * (n * len(own)),
         p_occ=np.stack(p_occ, axis=1).ravel(),
         occurrence=(occurrence,) * (n * len(own)),
         origin=_origin(
@@ -107,8 +108,8 @@ def _check_variables(variables: Mapping[str, Any]) -> None:
     """What is sampled for functions only must not look like a property."""
     for what, value in variables.items():
         as_text("variables", what)
-        # A number of storeys may be one of the population that no wall has of a building
-        if what in _PROPERTIES and what not in BUILDING_NAMES:
+        # A number of storeys may be one of the population that no wall has of a building, `free` a height
+        if what in _PROPERTIES and what not in (*BUILDING_NAMES, "free"):
             raise argument_error(
                 "not_together", "variables", f": {what!r} is a property of the walls, to be given as one"
             )
@@ -130,7 +131,8 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
                 )
         for kind in [mechanism] if mechanism else own:
             for what in extra:
-                if kind not in _OWNERS.get(what, (kind,)):
+                # The weight of a wall among others, and not those of the bodies of a table
+                if what != "weight" and kind not in _OWNERS.get(what, (kind,)):
                     raise argument_error(
                         "not_together", what, f": {kind} walls have none; give it to the mechanism that has it"
                     )
@@ -286,13 +288,18 @@ def _evaluate(
     return values
 
 
-def make_walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
+def make_walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> WallColumns:
     """Walls of one mechanism."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
-    said = {what: value if isinstance(value, np.ndarray) else [value] * n for what, value in values.items()}
-    data = describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
-    return [wall_from(one) for one in data]
+    # The weight of a wall among others is none of its properties
+    said = {
+        what: value if isinstance(value, np.ndarray) else [value] * n
+        for what, value in values.items()
+        if what != "weight"
+    }
+    given = {**said, "name": names, "mechanism": [mechanism] * n}
+    return WallColumns.of_data(describe_walls(n, given, np.full(n, pull)))
 
 
 def in_words(value: Property) -> str:

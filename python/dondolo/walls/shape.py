@@ -23,8 +23,8 @@ class Shape:
 
     Attributes
     ----------
-    blocks : list of ndarray, shape (4, 2)
-        Corners of its blocks [m], from the base on its left, counter-clockwise.
+    blocks : list of ndarray, shape (corners, 2)
+        Corners of its blocks [m], four from the base on its left, counter-clockwise; after them those of wedges.
     hinges : ndarray, shape (hinges, 2)
         Corners about which the blocks rotate [m].
     """
@@ -60,6 +60,7 @@ def shape(wall: MasonryWall, rotation: float) -> Shape:
             for leaf in leaves
             for storey, width in zip(outer, widths, strict=True)
         ]
+        blocks += [moved(wall, wedge, q) for wedge in wedges(wall)]
         base = t - wall.base_hinge_depth + _edge(wall) * q
         hinges = np.array([[base - leaf * widths[0], 0.0] for leaf in leaves])
     if side < 0.0:
@@ -74,7 +75,7 @@ def storeys(wall: MasonryWall) -> list[Points]:
     Parameters
     ----------
     wall : MasonryWall
-        Any wall but one of two blocks.
+        The wall; one of two blocks has one storey.
 
     Returns
     -------
@@ -93,18 +94,46 @@ def storeys(wall: MasonryWall) -> list[Points]:
     return found
 
 
+def wedges(wall: MasonryWall) -> list[Points]:
+    """The wedges of transverse walls behind the storeys of a wall at rest; equal ones once.
+
+    Parameters
+    ----------
+    wall : MasonryWall
+        The wall.
+
+    Returns
+    -------
+    list of ndarray, shape (corners, 2)
+        Corners of the part of each in each storey [m].
+    """
+    found = {}
+    for wedge in parts_of(wall, "wedges"):
+        slope = np.tan(np.radians(wedge.angle))
+        full = wedge.bottom + wedge.length / slope if slope > 0.0 else wedge.top
+        for corners in storeys(wall):
+            low, high = max(corners[0, 1], wedge.bottom), min(corners[2, 1], wedge.top)
+            levels = [low, *([full] if low < full < high else []), high]
+            reach = [min(slope * (level - wedge.bottom), wedge.length) for level in levels]
+            if high > low and max(reach) > 0.0:
+                face = corners[0, 0]
+                back = [(face - far, level) for far, level in zip(reach, levels, strict=True)]
+                found[tuple(back)] = np.array([(face, low), (face, high), *reversed(back)])
+    return list(found.values())
+
+
 def _edge(wall: MasonryWall) -> float:
     """Radius of the edge that one block rolls on."""
     return getattr(wall, "edge_radius", None) or 0.0
 
 
 def moved(wall: MasonryWall, points: Points, rotation: float) -> Points:
-    """Points of one block, given at rest, where the wall has turned outwards.
+    """Points of a wall, given at rest, where it has turned outwards.
 
     Parameters
     ----------
     wall : MasonryWall
-        Any wall but one of two blocks.
+        The wall; of two blocks, those above its hinge turn with the upper one.
     points : ndarray, shape (points, 2)
         Where they are at rest [m].
     rotation : float
@@ -115,13 +144,36 @@ def moved(wall: MasonryWall, points: Points, rotation: float) -> Points:
     ndarray, shape (points, 2)
         Where they are [m]; a wall with a round edge rolls.
     """
+    if isinstance(wall, TwoBlockWall):
+        base, corner, top, back = _fold(wall, rotation)
+        lower = np.array([0.0, wall.hinge * wall.height])
+        above = points[:, 1:] > lower[1]
+        folded: Points = np.where(
+            above, _turned(points - lower, corner, back) + (top - corner), _turned(points, base, -rotation)
+        )
+        return folded
     centre = np.array([wall.thickness - wall.base_hinge_depth, _edge(wall)])
     turned: Points = np.add(_turned(points, centre, -rotation), (_edge(wall) * rotation, 0.0))
     return turned
 
 
 def _two_blocks(wall: TwoBlockWall, q: float) -> tuple[list[Points], Points]:
-    """Both blocks folded to the right: R2 sin(beta2) = R1 sin(beta1) keeps base and top hinge on one vertical."""
+    """Both blocks folded to the right, and their hinges."""
+    base, corner, top, back = _fold(wall, q)
+    lower, upper = wall.hinge * wall.height, (1.0 - wall.hinge) * wall.height
+    middle = _turned(np.array([[wall.base_hinge_depth, lower]]), base, -q)[0]
+    blocks = [
+        _turned(_rectangle(wall.thickness, lower), base, -q),
+        _turned(_rectangle(wall.thickness, upper), corner, back) + (top - corner),
+    ]
+    return blocks, np.array([base, middle, top])
+
+
+def _fold(wall: TwoBlockWall, q: float) -> tuple[Points, Points, Points, float]:
+    """Hinge at the base, that of the top on the upper block at rest and where it goes, and how far that turns back.
+
+    R2 sin(beta2) = R1 sin(beta1) keeps base and top hinge on one vertical.
+    """
     t, u = wall.thickness, wall.base_hinge_depth
     apart = t - 2.0 * u
     lower, upper = wall.hinge * wall.height, (1.0 - wall.hinge) * wall.height
@@ -131,12 +183,7 @@ def _two_blocks(wall: TwoBlockWall, q: float) -> tuple[list[Points], Points]:
     base = np.array([t - u, 0.0])
     middle = base + np.hypot(apart, lower) * np.array([-np.sin(beta1), np.cos(beta1)])
     top = middle + np.hypot(apart, upper) * np.array([np.sin(beta2), np.cos(beta2)])
-    corner = np.array([t - u, upper])
-    blocks = [
-        _turned(_rectangle(t, lower), base, -q),
-        _turned(_rectangle(t, upper), corner, alpha2 - beta2) + (top - corner),
-    ]
-    return blocks, np.array([base, middle, top])
+    return base, np.array([t - u, upper]), top, float(alpha2 - beta2)
 
 
 def _rectangle(width: float, height: float) -> Points:

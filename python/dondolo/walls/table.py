@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from dondolo._fortran.walls import EXCLUSIVE, WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES
 from dondolo._storage import tables
-from dondolo.walls.wall import Wall, property_of
+from dondolo.walls.wall import Wall, properties_of
 
 if TYPE_CHECKING:
     from dondolo.walls.population import Population
@@ -17,16 +17,16 @@ def population_columns(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
     names = {row.name: row.name for row in WALL_PROPERTIES if row.column}
     table = property_columns(population.walls, names)
-    table |= {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
+    table |= {"weight": population.weights, "group": population.group_names, "p_occ": population.p_occ}
     table |= {"facade": population.facades} if any(population.facades) else {}
-    return table | occurrence_columns(population.occurrence, population.alternatives)
+    return table | occurrence_columns(population.occurrence, population.alternatives) | dict(population.notes)
 
 
 def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.Table:
     """Columns of properties under their heads; a list has as many, numbered, as a wall has values."""
     table: tables.Table = {}
     for what, head in heads.items():
-        values = [property_of(wall, what) for wall in walls]
+        values = properties_of(walls, what)
         # The executable writes whole numbers, those of storeys, as it writes all others.
         values = [float(value) if isinstance(value, int) else value for value in values]
         if what in WALL_EXTRAS and all(value is None for value in values):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import functools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
@@ -75,8 +75,8 @@ class Terms(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Wall:
-    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall` or
-    `TabulatedWall`.
+    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall`,
+    `TabulatedWall` or `Chain`.
 
     Every number that is left out (None) gets its default from the Fortran library and is then an attribute of the wall.
 
@@ -94,6 +94,7 @@ class Wall:
 
     height: float = DEFAULT
     _: KW_ONLY
+    base_level: float | None = None
     restitution: Literal["default", "sorrentino", "impulse"] = DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
@@ -107,7 +108,7 @@ class Wall:
         self._understand()
 
     def _sources(self) -> tuple[str, ...]:
-        """What it uses of the methods of others, in the words of dondolo_base_references."""
+        """What it uses of the methods of others, in the words of dondolo_files_references."""
         building = () if self.building is None else ("building",)
         # The engine that has a speed ratio for each impact
         engine = ("rk45",) if self.restitution_sd else ()
@@ -116,7 +117,9 @@ class Wall:
     def _understand(self, **more: Any) -> None:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
-            raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall or TabulatedWall")
+            raise TypeError(
+                "Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall, TabulatedWall or Chain"
+            )
         if self.building is not None:
             instance_of("building", self.building, Building)
         lists = properties_of_parts(self)
@@ -232,6 +235,21 @@ class Wall:
     def support_tilt(self) -> float:
         """Tilt tau, the factor on the relative displacement of top and base [1/s2]; 0 without a top support."""
         return self._static(10)
+
+    @property
+    def opening_edp(self) -> float:
+        """Rotation / capacity at which joints that bend open, q_y/q_c; 0 for rigid blocks."""
+        return self._static(12)
+
+    @property
+    def opening_acceleration(self) -> float:
+        """Spectral acceleration at `elastic_period` that opens joints that bend [m/s2]; 0 for rigid blocks."""
+        return self._static(13)
+
+    @property
+    def elastic_restitution(self) -> float:
+        """Speed ratio e_0 of a passage of the rest position of joints that bend; 0 for rigid blocks."""
+        return self._static(14)
 
     def _felt(self, acceleration: FloatArray, vertical: FloatArray | None, dt: float, what: str) -> Motion | None:
         """The motion that the wall feels, or that of its base or its top; None without a building."""
@@ -402,12 +420,13 @@ def described(properties: Mapping[str, Any], gravity: float | None) -> WallData:
         raise named_by_parts(error, properties) from None
 
 
-def upload(walls: tuple[Wall, ...]) -> Handle:
+def upload(walls: Sequence[Wall]) -> Handle:
     """The walls in Fortran; one alone is uploaded once."""
     alone = walls[0].__dict__ if len(walls) == 1 else {}
     if "_handle" in alone:
         return alone["_handle"]  # type: ignore[no-any-return]
-    number, failure = _core.walls.new_walls(*join_walls([wall._flat for wall in walls]))
+    flat = walls.flat if isinstance(walls, ColumnsOfWalls) else join_walls([wall._flat for wall in walls])
+    number, failure = _core.walls.new_walls(*flat)
     check(failure)
     # Another thread may have uploaded it in the meantime, and uses its handle.
     handle: Handle = alone.setdefault("_handle", Handle(number))
@@ -415,21 +434,22 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
 
 
 def walls_table(
-    walls: tuple[Wall, ...],
-    words: Iterable[tuple[str, str, str, str]] | None = None,
+    walls: Sequence[Wall],
+    words: Iterable[Sequence[str]] | None = None,
     weights: FloatArray | None = None,
     p_occ: FloatArray | None = None,
+    notes: Sequence[str] = (),
 ) -> TableColumns:
-    """Columns of ``_walls.csv``; words are group, facade, occurrence and alternative of each wall.
+    """Columns of ``_walls.csv``; words are group, facade, occurrence, alternative and notes of each wall.
 
     By themselves walls have a weight of 1, no group, and independent mechanisms.
     """
     ones = np.ones(len(walls))
     shares = (ones if weights is None else weights, ones if p_occ is None else p_occ)
-    return wall_columns(upload(walls), words or [("", "", INDEPENDENT, "")] * len(walls), *shares)
+    return wall_columns(upload(walls), words or [("", "", INDEPENDENT, "")] * len(walls), notes, *shares)
 
 
-def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:
+def notes_on_supports(walls: Sequence[Wall]) -> list[tuple[str, str]]:
     """Notes on the motion of the bases and supports of walls, as facts, as the executable prints them."""
     return [(say("note"), _said(note)) for note in support_notes(upload(walls))]
 
@@ -448,6 +468,21 @@ def property_of(wall: Wall, name: str) -> Any:
     if name in PLACES:
         return wall.__dict__["_lists"].get(name)
     return getattr(wall.building if name in BUILDING_NAMES else wall, name, None)
+
+
+class ColumnsOfWalls(Sequence["Wall"]):
+    """Walls that are kept as columns: `WallColumns` makes them."""
+
+    flat: FlatWall
+
+    def column(self, name: str) -> list[Any]:
+        """A property of all walls, as `property_of` has it."""
+        raise NotImplementedError
+
+
+def properties_of(walls: Sequence[Wall], name: str) -> list[Any]:
+    """A property of several walls, as `property_of` has it."""
+    return walls.column(name) if isinstance(walls, ColumnsOfWalls) else [property_of(wall, name) for wall in walls]
 
 
 def effective_property(wall: Wall, name: str) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
@@ -18,63 +18,86 @@ from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import as_text
 from dondolo.walls.rows import (
     check_names,
-    named_walls,
+    names_of_rows,
+    notes_of_rows,
     numbered_alternatives,
     occurrence_of_rows,
     several,
     shares_of_rows,
     words_of_rows,
 )
-from dondolo.walls.wall import MasonryWall, Wall
+from dondolo.walls.wall import Wall, properties_of
+from dondolo.walls.wall_columns import WallColumns, as_columns, statics_of
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WallRows:
     """Walls in rows, checked, with what they make together; `Population` describes the fields."""
 
-    walls: tuple[Wall, ...]
+    walls: Sequence[Wall]
     weights: FloatArray = None  # type: ignore[assignment]
     _: KW_ONLY
-    groups: tuple[str, ...] = None  # type: ignore[assignment]
+    group_names: tuple[str, ...] = None  # type: ignore[assignment]
     p_occ: FloatArray = None  # type: ignore[assignment]
     facades: tuple[str, ...] = None  # type: ignore[assignment]
     occurrence: tuple[str, ...] = None  # type: ignore[assignment]
     alternatives: tuple[str, ...] = None  # type: ignore[assignment]
     origin: tuple[str, ...] = ()
+    notes: Mapping[str, tuple[str, ...]] = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         if hasattr(self.walls, "notna"):
             sentence = ": must be walls; Population.from_frame makes them of a data frame"
             raise argument_error("wrong_type", "walls", sentence)
-        walls = (self.walls,) if isinstance(self.walls, Wall) else several("walls", self.walls, "walls")
-        if not walls:
-            raise argument_error("not_given", "walls", ": must be given")
-        for wall in walls:
-            instance_of("walls", wall, Wall)
-        if len(walls) > 1:
-            walls = named_walls(walls)
-        weights = shares_of_rows("weight", self.weights, walls, math.inf)
+        walls = self._as_walls()
+        rows, mechanisms = properties_of(walls, "name"), properties_of(walls, "mechanism")
+        weights = shares_of_rows("weight", self.weights, rows, math.inf)
         if not np.any(weights > 0.0):
             raise argument_error("out_of_range", "weight", ": must be positive for at least one wall")
-        p_occ = shares_of_rows("p_occ", self.p_occ, walls, 1.0)
-        names = ("groups", "facades", "alternatives")
-        groups, facades, alternatives = (words_of_rows(name, getattr(self, name), walls) for name in names)
-        occurrence = occurrence_of_rows(self.occurrence, walls)
+        p_occ = shares_of_rows("p_occ", self.p_occ, rows, 1.0)
+        names = ("group_names", "facades", "alternatives")
+        groups, facades, alternatives = (words_of_rows(name, getattr(self, name), rows) for name in names)
+        occurrence = occurrence_of_rows(self.occurrence, rows)
+        notes = notes_of_rows(self.notes, rows)
         origin = several("origin", self.origin, "lines")
         for line in origin:
             as_text("origin", line)
         of_rows = list(zip(weights.tolist(), groups, occurrence, strict=True))
-        check_names(walls, of_rows, facades, alternatives)
-        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "facades": facades}
-        filled |= {"occurrence": occurrence, "alternatives": alternatives, "origin": origin}
+        check_names(rows, mechanisms, of_rows, facades, alternatives)
+        filled = {"walls": walls, "weights": weights, "group_names": groups, "p_occ": p_occ, "facades": facades}
+        filled |= {"occurrence": occurrence, "alternatives": alternatives, "origin": origin, "notes": notes}
         for name, value in filled.items():
             object.__setattr__(self, name, value)
         numbered_alternatives(self.wholes, p_occ.tolist(), occurrence, alternatives)
 
+    def _as_walls(self) -> Sequence[Wall]:
+        """The walls that were given, each of several with a name."""
+        given: Sequence[Wall]
+        if isinstance(self.walls, WallColumns):
+            given = self.walls
+        else:
+            given = (self.walls,) if isinstance(self.walls, Wall) else several("walls", self.walls, "walls")
+            for wall in given:
+                instance_of("walls", wall, Wall)
+        if not given:
+            raise argument_error("not_given", "walls", ": must be given")
+        if len(given) == 1:
+            # One wall is uploaded once.
+            return tuple(given)
+        names = names_of_rows(properties_of(given, "name"))
+        if not isinstance(given, WallColumns):
+            return as_columns(
+                tuple(
+                    wall if wall.name == name else wall._renamed(name) for wall, name in zip(given, names, strict=True)
+                )
+            )
+        return given if names == tuple(given.names) else given.renamed(names)
+
     @functools.cached_property
     def wholes(self) -> tuple[str, ...]:
         """Name of what collapses with each row: its facade, or its wall."""
-        return tuple(facade or wall.name for wall, facade in zip(self.walls, self.facades, strict=True))
+        names = properties_of(self.walls, "name")
+        return tuple(facade or name for name, facade in zip(names, self.facades, strict=True))
 
     @functools.cached_property
     def first_rows(self) -> NDArray[np.intp]:
@@ -130,7 +153,7 @@ class WallRows:
 
     def _facts(self) -> list[tuple[str, str]]:
         """How many there are, name and text."""
-        groups = Counter(self.groups[i] for i in self.first_rows)
+        groups = Counter(self.group_names[i] for i in self.first_rows)
         facts = [
             (say("walls"), str(len(self.first_rows))),
             (say("mechanisms"), str(len(self))),
@@ -147,16 +170,24 @@ class WallRows:
             text = say("{low:.4g} to {high:.4g} {unit}", low=float(min(values)), high=float(max(values)), unit=unit)
             return what, text.strip()
 
-        sizes = [(wall.height, wall.thickness) for wall in self.walls if isinstance(wall, MasonryWall)]
-        facts = [between(say("height"), (wall.height for wall in self.walls), "m")]
+        heights = properties_of(self.walls, "height")
+        both = zip(heights, properties_of(self.walls, "thickness"), strict=True)
+        sizes = [(height, thickness) for height, thickness in both if thickness is not None]
+        facts = [between(say("height"), heights, "m")]
         if sizes:
             facts.append(between(say("thickness"), (thickness for _, thickness in sizes), "m"))
             facts.append(between(say("height / thickness"), (height / thickness for height, thickness in sizes)))
         return [
             *facts,
-            between(say("trigger"), (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
+            between(say("trigger"), triggers_of(self.walls), "g"),
             between("p_occ", self.p_occ),
         ]
 
     def _repr_html_(self) -> str:
         return html_of("Population", [*self._facts(), *self._ranges()])
+
+
+def triggers_of(walls: Sequence[Wall]) -> list[float]:
+    """Acceleration at which each wall begins to rock, in units of gravity."""
+    both = zip(statics_of(walls, "trigger_acceleration"), statics_of(walls, "gravity"), strict=True)
+    return [trigger / gravity for trigger, gravity in both]

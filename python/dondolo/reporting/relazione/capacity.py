@@ -10,19 +10,24 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from dondolo._fortran.checks import SheetRow
 from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
 from dondolo.reporting.content import Piece, Symbol, Table
 from dondolo.reporting.numerals import NONE, Numeral
 from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.formulas import FIGURES
+from dondolo.reporting.relazione.strip_items import strip_of_items
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.reporting.relazione.sums import Turning, of_tie, turning_of
+from dondolo.reporting.relazione.sums import Turning, of_tie, ties_left_out, turning_of
+from dondolo.reporting.relazione.tabulated import table_steps
 from dondolo.reporting.units import UNITS, Unit, cell
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
-# Figures of what is to be calculated again by hand, and how well the steps give the numbers of the check
-FIGURES = 6
+# How well the steps give the numbers of the check
 _SAME = 1e-9
+# Displacements of the code / d_0*
+_SHARES = {"SLV": 0.4, "SLC": 0.6}
 # Of a cosine, which is close to 1
 _COSINE = 10
 _THETA = Symbol("θ")
@@ -35,6 +40,8 @@ def shown(value: float, unit: Unit = UNITS[""], figures: int = FIGURES) -> Numer
 
 def end_of(document: Document, one: Subject) -> list[Block]:
     """Steps to d_0*."""
+    if isinstance(one.wall, TabulatedWall):
+        return table_steps(document, one)
     if isinstance(one.wall, TwoBlockWall):
         return _strip(document, one)
     sums, d0 = turning_of(one.check.items), one.check.value("mechanism", "SLV", "d_0")
@@ -87,32 +94,31 @@ def _set_back(one: Subject, sums: Turning) -> list[Block]:
     ]
 
 
-def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
-    """Why d_C is what it is, and the steps to a(d_C)."""
-    check = one.check
-    d, a = check.value("nonlinear", state, "displacement"), check.value("nonlinear", state, "acceleration")
-    d0 = check.value("mechanism", state, "d_0")
-    blocks = _displacement(document, one, state, d, d0)
-    if isinstance(one.wall, TwoBlockWall):
-        return blocks
+def capacity_of(document: Document, one: Subject, row: SheetRow) -> list[Block]:
+    """The steps to alpha(d_C), of the curve with all ties or, of method 'untied', without some."""
+    check, state, a = one.check, row.limit_state, row.value
+    d = check.value(row.method, state, "displacement")
+    if not one.is_turning:
+        return []
+    blocks: list[Block] = []
     factor, ratio = (check.value("mechanism", state, name) for name in ("knowledge_factor", "mass_ratio"))
     alpha = a * ratio * factor / one.wall.gravity
-    sums = turning_of(check.items)
+    left_out = ties_left_out(one, row.item)
+    sums = turning_of(check.items, left_out)
     sine = d * sums.first / sums.second
     held = next(
         (kept for kept in (True, False) if math.isclose(sums.multiplier(sine, with_ties=kept), alpha, rel_tol=_SAME)),
         None,
     )
-    ties = sorted(_fractures(one), key=lambda tie: tie.angle)
+    ties = sorted((tie for tie in _fractures(one) if tie.name not in left_out), key=lambda tie: tie.angle)
     if held is None:
         # Ties break one after the other.
         for many in range(1, len(ties)):
-            unbroken = turning_of(check.items, frozenset(tie.name for tie in ties[:many]))
+            unbroken = turning_of(check.items, left_out | {tie.name for tie in ties[:many]})
             if math.isclose(unbroken.multiplier(sine, with_ties=True), alpha, rel_tol=_SAME):
                 sums, held = unbroken, True
     if len(ties) > 1 and sine >= math.sin(ties[0].angle) * (1.0 - _SAME):
         blocks += _of_ties(document, one, ties, sine, state)
-    words = (symbol_of("a(d_C)"), (symbol_of("alpha(d_C)"), " ", symbol_of("g"), "/(", symbol_of("e*"), " FC)"))
     if held is None:
         text = _(
             "{a} = {value} m/s² is that of the capacity curve, with friction of interlocking, springs, a rounded edge"
@@ -139,12 +145,12 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
         shown(sums.first, moment), " · ", near_one, *_signed(" + ", sums.arms), " · ", shown(sine),
     )  # fmt: skip
     # In symbols once: those of SLC are the same.
-    symbols = [Formula((left, (rest, *cos, " - ", fall, *sin))), Formula((moved, bottom))] if state == "SLV" else []
+    is_first = (row.method, state) == ("nonlinear", "SLV")
+    symbols = [Formula((left, (rest, *cos, " - ", fall, *sin))), Formula((moved, bottom))] if is_first else []
     under = sums.first * cosine + sums.arms * sine
     over, below = shown(alpha * under, moment), shown(under, moment)
     first, second = shown(sums.first, moment), shown(sums.second, UNITS["N m2/m"])
     total = _sum("P", "z")
-    numbers = Fraction((shown(alpha), " · ", shown(one.wall.gravity)), (shown(ratio), " · ", shown(factor)))
     return [
         *blocks,
         Formula((("sin ", theta), (symbol_of("d_C"), " ", Fraction(total, (*total, "²"))),
@@ -156,7 +162,6 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
         *symbols[1:],
         Formula((moved, bottom_numbers, (below, " kNm/m"))),
         Formula((symbol_of("alpha(d_C)"), Fraction(left, moved), Fraction(over, below), shown(alpha))),
-        Formula((*words, numbers, (shown(a), " m/s²"))),
     ]  # fmt: skip
 
 
@@ -183,15 +188,13 @@ def _signed(sign: str, value: float, unit: Unit = UNITS["N m/m"]) -> tuple[Piece
     return (sign, "(", shown(value, unit), ")") if value < 0.0 else (sign, shown(value, unit))
 
 
-def _displacement(document: Document, one: Subject, state: str, d: float, d0: float) -> list[Block]:
-    """d_C, and why it is not the share of d_0* that the code has for it."""
-    row = one.check._row("nonlinear", state, "displacement")
-    assert row is not None
-    share = shown({"SLV": 0.4, "SLC": 0.6}[state])
-    sides = (symbol_of("d_C"), (share, " ", symbol_of("d_0*")), (share, " · ", shown(d0)))
-    if math.isclose(d, {"SLV": 0.4, "SLC": 0.6}[state] * d0, rel_tol=_SAME):
-        return [document.say(_("{state}:"), state=state), Formula((*sides, (shown(d), " m")))]
-    values = {"state": state, "capacity": symbol_of("d_C"), "d": shown(d), "share": (share, " ", symbol_of("d_0*"))}
+def displacement_of(document: Document, one: Subject, row: SheetRow) -> list[Block]:
+    """Why d_C is not the share of d_0* that the code has for it, which its row then lacks."""
+    if row.numbers:
+        return []
+    d, state = row.value, row.limit_state
+    share = (shown(_SHARES[state]), " ", symbol_of("d_0*"))
+    values = {"state": state, "capacity": symbol_of("d_C"), "d": shown(d), "share": share}
     if "tie" in row.expression:
         words = _(
             "{state}: {capacity} = {d} m, less than {share}: there ties break that give more than half of the greatest"
@@ -354,6 +357,10 @@ def _strip(document: Document, one: Subject) -> list[Block]:
     """Geometry of a strip at d_0* and at d_C, a column each."""
     check, wall, items = one.check, one.wall, one.check.items
     assert isinstance(wall, TwoBlockWall)
+    if any(item.item not in ("lower block", "upper block", "load on top") for item in items):
+        return strip_of_items(document, one)
+    if not one.has_ratios:
+        return []
     factor = check.value("mechanism", "SLV", "knowledge_factor")
     places = [("d_0*", check.value("mechanism", "SLV", "d_0"), 0.0)]
     for state in ("SLV", "SLC"):

@@ -1,6 +1,6 @@
 """The chapters of a calculation report, in their order: functions that give blocks of a document."""
 
-from dondolo.reporting.relazione import checks, comparisons, materials, opening, outcome, ties
+from dondolo.reporting.relazione import annexes, checks, comparisons, materials, opening, outcome, ties
 
 CHAPTERS = (
     opening.title_page,
@@ -20,5 +20,5 @@ CHAPTERS = (
     outcome.summary,
     outcome.run,
     comparisons.comparisons,
-    outcome.annexes,
+    annexes.annexes,
 )

@@ -4,48 +4,55 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from itertools import groupby
 
-from dondolo._fortran.checks import SheetRow, ntc_parameters
+from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
-from dondolo.reporting.blocks import (
-    Block,
-    CaptionedTable,
-    Formula,
-    Fraction,
-    Heading,
-    Note,
-    Picture,
-    Root,
-    symbol_of,
-)
+from dondolo.checks.side_by_side import Chance, side_by_side
+from dondolo.reporting.blocks import Block, CaptionedTable, Heading, Note, Picture, symbol_of
 from dondolo.reporting.content import Piece, Table
-from dondolo.reporting.numerals import NONE, number, whole
-from dondolo.reporting.relazione.capacity import FIGURES, capacity_of, end_of, shown
+from dondolo.reporting.numerals import NONE, chance, number, whole
+from dondolo.reporting.relazione.capacity import capacity_of, displacement_of, end_of, shown
 from dondolo.reporting.relazione.document import Document, _
-from dondolo.reporting.relazione.drawings import draw_capacity, draw_wall
+from dondolo.reporting.relazione.drawings import draw_capacity, draw_floor, draw_table, draw_wall
+from dondolo.reporting.relazione.floors import building_in, demand_of, peak_of
+from dondolo.reporting.relazione.formulas import COHERENT, FIGURES, formulas_of
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.reporting.relazione.sums import Ratios, of_tie, ratios_of, reactions_of, sums_of, turning_of
-from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.reporting.relazione.sums import (
+    is_free,
+    of_tie,
+    ratios_of,
+    reactions_of,
+    sums_of,
+    taken_of,
+    ties_left_out,
+    turning_of,
+    without_of,
+)
+from dondolo.reporting.relazione.tabulated import table_of
+from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
+from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
 # Displacements of the sheet, which are small
 _LENGTHS = (
-    "d_0", "tie_fracture", "displacement", "demand", "mean_displacement", "bar", "plate_width", "plate_height",
-    "plate_diameter", "plate_thickness", "plate_needed", "masonry_thickness", "edge_distance",
+    "d_0", "tie_fracture", "displacement", "demand", "mean_displacement", "yield_displacement", "bar", "plate_width",
+    "plate_height", "plate_diameter", "plate_thickness", "plate_needed", "masonry_thickness", "edge_distance",
 )  # fmt: skip
 # What a limit state without a hazard of its own is not to be taken for
 _VERDICTS = ("ratio", "zeta_e", "verified")
 _COUNTS = ("records", "histories", "beyond")
 # What is 1 or 0
-_FLAGS = ("extrapolated", "hierarchy", "plate_verified", "anchor_checked")
-# Factors of the period, and damping [%], of the nonlinear checks
-_PERIODS = {"SLV": (1.68, 8.0), "SLC": (1.56, 10.0)}
+_FLAGS = ("free_element", "extrapolated", "required", "turns_first", "hierarchy", "plate_verified", "anchor_checked")
+# Parts of a check whose rows are shown, in their order; those of the site and of ties are in tables of their own
+_METHODS = ("mechanism", "linear", "nonlinear", "untied", "assigned")
+# What says of the ratio again, in accelerations
+_AGAIN = ("capacity_ag", "capacity_pga", "zeta_e")
 # Verdicts of a check as a report of a calculation words them
 _OUTCOMES = {
     "verified": _("satisfied"),
     "verified if its ties are": _("satisfied if its ties are"),
+    "verified if no hinge slides": _("satisfied if no hinge slides"),
     "not verified": _("NOT satisfied"),
     "not applicable": _("not applicable"),
 }
@@ -55,12 +62,24 @@ def mechanism(document: Document) -> list[Block]:
     """Chapter 10."""
     blocks: list[Block] = [Heading(document.text(_("Scheme of the mechanism")))]
     for name, one in document.each():
+        if isinstance(one.wall, TabulatedWall):
+            blocks.append(
+                Picture(
+                    lambda one=one: draw_table(document, one),  # type: ignore[misc]
+                    document.titled(document.text(_("Moment and lever of the table over the rotation")), name),
+                    document.text(_("Moment and lever of the wall against its rotation.")),
+                )
+            )
+            blocks += table_of(document, one)
+            continue
         blocks.append(
             Picture(
                 lambda one=one: draw_wall(document, one),  # type: ignore[misc]
                 document.titled(
                     document.text(
-                        _("Loads and hinge; the mechanism displaced, with the reactions of the base at activation")
+                        _("Loads and hinges; the mechanism displaced")
+                        if isinstance(one.wall, TwoBlockWall)
+                        else _("Loads and hinge; the mechanism displaced, with the reactions of the base at activation")
                     ),
                     name,
                 ),
@@ -72,7 +91,7 @@ def mechanism(document: Document) -> list[Block]:
 
 def _reactions(document: Document) -> list[Block]:
     """Reactions at the hinge of walls that turn about their base."""
-    several = [(name, one) for name, one in document.each() if not isinstance(one.wall, TwoBlockWall)]
+    several = [(name, one) for name, one in document.each() if one.is_turning]
     if not several:
         return []
     unit = UNITS["N/m"]
@@ -103,31 +122,54 @@ def checks(document: Document) -> list[Block]:
         " Circolare, C8.7.1.2.1.8, that takes the acceleration of activation (C8.7.1.2.1.5) where the one from the"
         " displacement is less; for SLC, of which it asks for an analogous calculation, the same is assumed."
     )
-    peak = "a_Z" if document.subjects.several[0].is_on_floor else "a_g S"
-    names = {"zeta": "ζ_E", "capacity": "d_C", "demand": "d_D", "a0": "a_0*", "peak": peak, "g": "g"}
+    names = {"zeta": "ζ_E", "capacity": "d_C", "demand": "d_D", "a0": "a_0*", "peak": "a_Z", "g": "g"}
     blocks: list[Block] = [
         Heading(document.text(_("Checks at SLD, SLV and SLC"))),
         document.say(words, **{key: symbol_of(name) for key, name in names.items()}),
     ]
+    if any(is_free(one.check) for one in document.subjects.several):
+        free = _(
+            "Of a free element (C8.7.1.2.1.3) the spectral acceleration {demand} at its elastic period, with a damping"
+            " of 5 %, takes the place of {peak} (C8.7.1.2.1.5). Values of {modulus} are assumed by the designer, cracks"
+            " included; without them only the displacements count."
+        )
+        symbols = {"demand": "S_eZ(T_0)", "peak": "a_Z", "modulus": "E"}
+        blocks.append(document.say(free, **{key: symbol_of(name) for key, name in symbols.items()}))
     for name, one in document.each():
         if len(document.names) > 1:
             blocks.append(Heading(name, 2))
-        blocks += [_items(document, one, name), *_formulas(document, one)]
+        blocks += [_states(document, one, name), _items(document, one, name), *_formulas(document, one)]
         blocks.append(
             Picture(
                 lambda one=one: draw_capacity(document, one),  # type: ignore[misc]
                 document.titled(
-                    document.text(_("Capacity curve, and the demand of SLV (damping 8 %) and SLC (10 %)")), name
+                    document.text(
+                        _("Capacity curve, and the demand of SLV (damping 8 %) and SLC (10 %)")
+                        if one.has_ratios
+                        else _("Capacity curve")
+                    ),
+                    name,
                 ),
                 document.text(_("Spectral acceleration against displacement: capacity and demand.")),
             )
         )
+        if one.is_on_floor and building_in(one, "SLV", "nonlinear") is not None:
+            blocks.append(
+                Picture(
+                    lambda one=one: draw_floor(document, one),  # type: ignore[misc]
+                    document.titled(
+                        document.text(_("Spectrum of the floor at SLV, damping 8 %, and the period of the wall")), name
+                    ),
+                    document.text(_("Spectral acceleration of the floor and of the ground against period.")),
+                )
+            )
     if len(document.names) > 1:
         blocks.append(Heading(document.text(_("Numbers of all walls")), 2))
     blocks.append(_sheet(document))
-    period = max(
-        one.check.value("nonlinear", state, "period") for one in document.subjects.several for state in _PERIODS
-    )
+    found = [row.value for one in document.subjects.several for row in one.check.rows if row.quantity == "period"]
+    if not found:
+        return blocks
+    period = max(found)
     blocks.append(
         document.say(
             _(
@@ -142,9 +184,41 @@ def checks(document: Document) -> list[Block]:
     return blocks
 
 
+def _states(document: Document, one: Subject, name: str) -> CaptionedTable:
+    """The checks, a line each, with the probability of collapse at the acceleration allowed and at that of the site."""
+    lines = side_by_side(one.check, one.curve)
+    units = {"m": CENTIMETRES, "m/s2": UNITS["m/s2"]}
+    ags, allowed, verdicts = symbol_of("a_g S"), document.text(_("allowed")), document.text(_("outcome"))
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("check")): [f"{line.limit_state}, {method_name(document, line.method)}" for line in lines],
+        document.text(_("capacity of the wall")): [_amount(line.capacity, units[line.unit]) for line in lines],
+        document.text(_("demand")): [_amount(line.demand, units[line.unit]) for line in lines],
+        document.text(_("capacity / demand")): [number(line.ratio) for line in lines],
+        (ags, " ", allowed, " [g]"): [number(line.allowed_pga) for line in lines],
+        verdicts: [outcome(document, one.check, (line.method, line.limit_state)) for line in lines],
+    }
+    words = _("Checks at a glance")
+    if any(line.at_site for line in lines):
+        words = _("Checks at a glance; probabilities of collapse by the fragility curve, with their 95 % interval")
+        chance_of = document.text(_("P(collapse) at"))
+        columns[chance_of, " ", ags, " ", allowed] = [_chance(line.at_allowed) for line in lines]
+        columns[document.text(_("P(collapse) at the site"))] = [_chance(line.at_site) for line in lines]
+    return CaptionedTable(Table.of(columns, (verdicts,)), document.titled(document.text(words), name))
+
+
+def _amount(value: float, unit: Unit) -> Piece:
+    """A capacity or a demand with its unit; a dash for none."""
+    return NONE if math.isnan(value) else quantity(value, unit)
+
+
+def _chance(found: Chance | None) -> Piece:
+    """A probability of collapse with its interval; a dash for none."""
+    return NONE if found is None else chance(*found)
+
+
 def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     """The items with their sums, so that the multiplier can be made again by hand."""
-    items, strip = one.check.items, isinstance(one.wall, TwoBlockWall)
+    items, turns = one.check.items, one.is_turning
     force, moment, second = UNITS["N/m"], UNITS["N m/m"], UNITS["N m2/m"]
 
     def column(field: str, unit: Unit, figures: int = FIGURES) -> list[Piece]:
@@ -152,7 +226,7 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
         return ["" if math.isnan(value) else cell(value, unit, figures) for value in values]
 
     sums = sums_of(items)
-    lever, arm = ("d_x", "d_y") if strip else ("z", "e")
+    lever, arm = ("z", "e") if turns else ("d_x", "d_y")
     # The masonry as one body has the weight of its sections, which the sum has once.
     counted = f" ({document.text(_('counted above'))})"
     names = [document.item(item.item) + (counted if item.item == "masonry" else "") for item in items]
@@ -162,10 +236,11 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
         ("(", value, ")") if item.item == "masonry" else value
         for item, value in zip(items, column("force", force), strict=True)
     ]
-    if not strip:
+    if turns:
         columns[(symbol_of("d"), " [m]")] = column("depth", UNITS["m"])
-    columns[(symbol_of(arm), " [m]")] = column("arm", UNITS["m"])
-    if not strip:
+    if not isinstance(one.wall, TabulatedWall):
+        columns[(symbol_of(arm), " [m]")] = column("arm", UNITS["m"])
+    if turns:
         # Thrusts and ties have an arm too, of which their moments change as the wall turns.
         hinge = turning_of(items).hinge
         columns[(symbol_of(arm), " [m]")] = [
@@ -174,13 +249,13 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     columns[(symbol_of(lever), " [m]")] = column("lever", UNITS["m"])
     stab, over = document.text(_("stabilising [kNm/m]")), document.text(_("overturning [kNm/m]"))
     columns[stab] = column("stabilising", moment)
-    if not strip:
+    if turns or sums["thrust"]:
         columns[over] = column("overturning", moment)
     product = (symbol_of("P"), " ", symbol_of(lever), " [kNm/m]")
     square = (symbol_of("P"), " ", symbol_of(lever), "² [kNm²/m]")
     columns[product] = column("force_lever", moment)
     columns[square] = column("force_lever2", second)
-    pushes = sums["weight"] > sums["carried"] and not strip
+    pushes = sums["weight"] > sums["carried"] and turns
     weights = ("Σ(", symbol_of("P"), " + ", symbol_of("Q"), ") = ") if pushes else ("Σ", symbol_of("P"), " = ")
     ends: dict[Piece, Piece] = {
         forces: (*weights, cell(sums["weight"], force, FIGURES)),
@@ -196,172 +271,70 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
 
 
 def _formulas(document: Document, one: Subject) -> list[Block]:
-    """The steps from the sums to the safety index, with the numbers put in."""
+    """The steps from the sums to the safety index, numbers put in: all rows of the sheet that have a formula."""
     check, wall = one.check, one.wall
-    sums = sums_of(check.items)
-    lever = "d_x" if isinstance(wall, TwoBlockWall) else "z"
-    moment, second = UNITS["N m/m"], UNITS["N m2/m"]
-    total, top = ("Σ", symbol_of("P"), " ", symbol_of(lever)), (symbol_of("M_stab"), " - ", symbol_of("M_ov"))
-    factor = check.value("mechanism", "SLV", "knowledge_factor")
-    alpha, mass, ratio, a0 = (
-        check.value("mechanism", "SLV", name) for name in ("alpha_0", "mass", "mass_ratio", "a_0")
-    )
-    g = shown(wall.gravity)
-    along = shown(sums["force_lever"], moment)
-    blocks: list[Block] = [
-        Formula(
-            (
-                (symbol_of("alpha_0")),
-                Fraction(top, total),
-                Fraction((shown(sums["stabilising"], moment), " - ", shown(sums["overturning"], moment)), along),
-                shown(alpha),
-            )
-        )
-    ]
-    blocks.append(
-        Formula(
-            (
-                symbol_of("M*"),
-                Fraction(("(", *total, ")²"), (symbol_of("g"), " Σ", symbol_of("P"), " ", symbol_of(lever), "²")),
-                Fraction(("(", along, ")²"), (g, " · ", shown(sums["force_lever2"], second))),
-                (shown(1e-3 * mass), " t/m"),
-            )
-        )
-    )
-    blocks.append(
-        Formula(
-            (
-                symbol_of("e*"),
-                Fraction((symbol_of("g"), " ", symbol_of("M*")), ("Σ", symbol_of("P"))),
-                Fraction((g, " · ", shown(1e-3 * mass)), shown(wall.gravity * mass / ratio, UNITS["N/m"])),
-                shown(ratio),
-            )
-        )
-    )
-    blocks.append(
-        Formula(
-            (
-                symbol_of("a_0*"),
-                Fraction((symbol_of("alpha_0"), " ", symbol_of("g")), (symbol_of("e*"), " FC")),
-                Fraction((shown(alpha), " · ", g), (shown(ratio), " · ", shown(factor))),
-                (shown(a0), " m/s²"),
-            )
-        )
-    )
-    blocks += end_of(document, one)
-    for state in ("SLV", "SLC"):
-        blocks += _nonlinear(document, one, state)
-    governing = ", ".join(f"{state}: {governed(document, ratios_of(one, state))}" for state in ("SLV", "SLC"))
+    shown_rows = [row for row in check.rows if row.method in _METHODS and not check._is_void(row)]
+    blocks: list[Block] = []
+    for (method, state), rows in groupby(shown_rows, lambda row: (row.method, row.limit_state)):
+        steps = [block for row in rows for block in _steps(document, one, row)]
+        if method == "mechanism":
+            blocks += [*steps, *end_of(document, one)]
+        elif steps and method == "untied":
+            ties = document.the_item(without_of(one, state))
+            blocks += [document.say(_("{state}, without counting {ties}:"), state=state, ties=ties), *steps]
+        elif steps:
+            blocks += [document.say(f"{method_name(document, method)}, {state}:"), *steps]
+    if not one.has_ratios:
+        return blocks
+    governing = ", ".join(f"{state}: {governed(document, one, state)}" for state in ("SLV", "SLC"))
     blocks.append(document.say(_("The ratios are governed by: {what}."), what=governing))
-    found = ratios_of(one, "SLV")
+    found = ratios_of(one, check.ultimate_state, taken_of(one, check.ultimate_state))
     items = [item for item in check.items if item.item.startswith("tie")]
     late = any(
         of_tie(tie, "preload") * tie.section < item.force
         for tie, item in zip(parts_of(wall, "ties"), items, strict=False)
     )
-    if found.is_of_activation and late:
+    counted = {item.item for item in items} - ties_left_out(one, without_of(one, check.ultimate_state))
+    if found.is_of_activation and late and counted:
         words = _(
-            "The activation that governs {zeta} of SLV counts the ties with their full force, which beyond their"
+            "The activation that governs {zeta} of {state} counts the ties with their full force, which beyond their"
             " preload they have only after the wall has moved. By displacements alone the ratio is {ratio}."
         )
-        note = document.say(words, zeta=symbol_of("ζ_E"), ratio=number(found.displacement))
+        note = document.say(words, zeta=symbol_of("ζ_E"), state=check.ultimate_state, ratio=number(found.displacement))
         blocks.append(Note("doubt", note.pieces))
     return blocks
 
 
-def governed(document: Document, ratios: Ratios) -> str:
-    """Which of its two ratios the ratio of a nonlinear check is."""
-    return document.text(_("activation") if ratios.is_of_activation else _("displacement"))
-
-
-def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
-    """Period, demand and ratio of a nonlinear check, with the numbers put in."""
-    check = one.check
-    names = ("displacement", "acceleration", "period", "spectral_demand", "demand", "ratio")
-    d, a, period, ordinate, demand, ratio = (check.value("nonlinear", state, name) for name in names)
-    factor, damping = _PERIODS[state]
-    g = one.wall.gravity
-    blocks: list[Block] = [
-        *capacity_of(document, one, state),
-        Formula(
-            (
-                symbol_of(f"T_{state}"),
-                (number(factor), " π ", Root(Fraction(symbol_of("d_C"), symbol_of("a(d_C)")))),
-                (number(factor), " π ", Root(Fraction(shown(d), shown(a)))),
-                (shown(period), " s"),
-            )
-        ),
-    ]
-    on_ground = not one.is_on_floor
-    if on_ground:
-        blocks += _ordinate(one, state, period, damping, ordinate)
-    blocks.append(
-        Formula(
-            (
-                symbol_of("d_D"),
-                (symbol_of("S_e"), " ", Fraction((symbol_of("T"), "²"), ("4π²"))),
-                (shown(ordinate), " · ", shown(g), " · ", Fraction((shown(period), "²"), ("4π²"))),
-                (shown(demand), " m"),
-            )
-        )
-    )
-    found = ratios_of(one, state)
-    symbol = (symbol_of("a_g S" if on_ground else "a_Z"), " ", symbol_of("g"))
-    blocks.append(
-        Formula(
-            (
-                symbol_of("ζ_E"),
-                ("max(", Fraction(symbol_of("d_C"), symbol_of("d_D")), "; ", Fraction(symbol_of("a_0*"), symbol), ")"),
-                ("max(", shown(found.displacement), "; ", shown(found.activation), ")"),
-                shown(ratio),
-            )
-        )
-    )
+def _steps(document: Document, one: Subject, row: SheetRow) -> list[Block]:
+    """The formula of a row, after what leads to it."""
+    blocks: list[Block] = []
+    symbol = ""
+    if row.method in ("nonlinear", "untied"):
+        if row.quantity == "displacement":
+            blocks += displacement_of(document, one, row)
+        elif row.quantity == "acceleration":
+            blocks += capacity_of(document, one, row)
+        elif row.quantity == "ratio":
+            symbol = "ζ_E"
+        elif row.quantity == "spectral_demand":
+            blocks += demand_of(document, one, row)
+    elif (row.method, row.quantity) == ("linear", "floor_pga"):
+        blocks += peak_of(document, one, row)
+    if row.numbers and row.quantity not in _AGAIN:
+        if row.quantity in ("friction_needed", "sliding_alpha"):
+            blocks.append(document.say(f"{document.item(row.item)}:"))
+        blocks += formulas_of(document, row, one.check, symbol)
     return blocks
 
 
-def _ordinate(one: Subject, state: str, period: float, damping: float, ordinate: float) -> list[Block]:
-    """The ordinate of the elastic spectrum of the ground, with the numbers put in."""
-    pga, amplified, corners = ntc_parameters(one.check.site._input(), state)
-    tb, tc, td = corners.tolist()
-    eta = max(math.sqrt(10.0 / (5.0 + damping)), 0.55)
-    common = (symbol_of("a_g S"), " η ", symbol_of("F_0"))
-    values = (shown(pga), " · ", shown(eta), " · ", shown(amplified))
-    t = shown(period)
-    if period < tb:
-        symbols: Any = (
-            symbol_of("a_g S"),
-            " [1 + ",
-            Fraction(symbol_of("T"), symbol_of("T_B")),
-            " (η ",
-            symbol_of("F_0"),
-            " - 1)]",
-        )
-        numbers: Any = (
-            shown(pga),
-            " [1 + ",
-            Fraction(t, shown(tb)),
-            " (",
-            shown(eta),
-            " · ",
-            shown(amplified),
-            " - 1)]",
-        )
-    elif period < tc:
-        symbols, numbers = common, values
-    elif period < td:
-        symbols = (*common, " ", Fraction(symbol_of("T_C"), symbol_of("T")))
-        numbers = (*values, " · ", Fraction(shown(tc), t))
-    else:
-        symbols = (*common, " ", Fraction((symbol_of("T_C"), " ", symbol_of("T_D")), (symbol_of("T"), "²")))
-        numbers = (*values, " · ", Fraction((shown(tc), " · ", shown(td)), (t, "²")))
-    result = (shown(ordinate), " g")
-    factor = Formula((symbol_of("eta"), Root(Fraction(number(10.0), ("5 + ", symbol_of("xi"), " [%]"))),
-                      Root(Fraction(number(10.0), ("5 + ", number(damping)))), shown(eta)))  # fmt: skip
-    if tb <= period < td:
-        return [factor, Formula((symbol_of("S_e"), symbols, numbers, result))]
-    # Symbols and numbers in one line are wider than a page.
-    return [factor, Formula((symbol_of("S_e"), symbols)), Formula((symbol_of("S_e"), numbers, result))]
+def governed(document: Document, one: Subject, state: str) -> str:
+    """Which of its two ratios the ratio of a nonlinear check is, or which ties it does not count."""
+    if not one.has_ratios:
+        return "\N{EN DASH}"
+    found = ratios_of(one, state, taken_of(one, state))
+    what = document.text(_("activation") if found.is_of_activation else _("displacement"))
+    ties = without_of(one, state)
+    return document.text(_("{what}, without {ties}"), what=what, ties=document.the_item(ties)) if ties else what
 
 
 def _sheet(document: Document) -> CaptionedTable:
@@ -372,10 +345,12 @@ def _sheet(document: Document) -> CaptionedTable:
         for key, row in sheet.items():
             rows.setdefault(key, row)
     # What the first wall has not comes after it
-    rows = dict(sorted(rows.items(), key=lambda item: ("mechanism", "linear", "nonlinear").index(item[0][0])))
+    rows = dict(sorted(rows.items(), key=lambda item: _METHODS.index(item[0][0])))
     columns: dict[Piece, list[Piece]] = {
         document.text(_("quantity")): [
-            document.text(_RATIOS[row.quantity]) if row.quantity in _RATIOS else document.meaning(row)
+            document.text(_RATIOS[row.quantity]) + (f", {document.item(row.item)}" if row.item else "")
+            if row.quantity in _RATIOS
+            else (document.meaning(row), f", {document.item(row.item)}" if row.item else "")
             for row in rows.values()
         ],
         document.text(_("check")): [_check_name(document, row) for row in rows.values()],
@@ -383,7 +358,7 @@ def _sheet(document: Document) -> CaptionedTable:
     }
     for (name, one), sheet in zip(document.each(), sheets, strict=True):
         columns[name] = [
-            governed(document, ratios_of(one, key[1])) if key[2] == "governing"
+            governed(document, one, key[1]) if key[2] == "governing"
             else value_of(document, one.check, sheet.get(key))
             for key in rows
         ]  # fmt: skip
@@ -406,21 +381,32 @@ def _sheet_rows(one: Subject) -> dict[tuple[str, str, str], SheetRow]:
     """The rows of a sheet that are shown, with the two ratios of each nonlinear check after its demand."""
     rows: dict[tuple[str, str, str], SheetRow] = {}
     for row in one.check.rows:
-        if row.method not in ("mechanism", "linear", "nonlinear") or row.quantity == "probability":
+        if row.method not in _METHODS or row.quantity.startswith("probability"):
             continue
-        rows[row.method, row.limit_state, row.quantity] = row
-        if (row.method, row.quantity) == ("nonlinear", "demand"):
-            found = ratios_of(one, row.limit_state)
-            peak = "a_Z" if one.is_on_floor else "a_g S"
+        # Hinges of a strip have a row each, and so have ties that are left out
+        parts = ("friction_needed", "sliding_alpha", "turns_first", "less_zeta", "less_sld", "less_hinge")
+        of_part = row.item if row.quantity in parts or row.method == "untied" else ""
+        rows[row.method, row.limit_state, f"{row.quantity} {of_part}".strip()] = row
+        if row.method in ("nonlinear", "untied") and row.quantity == "demand":
+            found = ratios_of(one, row.limit_state, row.method)
             for name, symbol, value in (
                 ("displacement_ratio", "d_C/d_D", found.displacement),
-                ("activation_ratio", f"a_0*/({peak} g)", found.activation),
+                ("activation_ratio", f"a_0*/({_starting(one)} g)", found.activation),
                 ("governing", "", 0.0),
             ):
+                if math.isnan(value):
+                    continue
                 place = "C8.7.1.2.1.8" if row.limit_state == "SLV" else ""
+                if name == "governing" and row.method == "untied":
+                    continue
                 made = row._replace(quantity=name, symbol=symbol, value=value, unit="", formula=place, expression="")
-                rows[row.method, row.limit_state, name] = made
+                rows[row.method, row.limit_state, f"{name} {of_part}".strip()] = made
     return rows
+
+
+def _starting(one: Subject) -> str:
+    """Symbol of the acceleration that starts the mechanism."""
+    return "S_eZ(T_0)" if is_free(one.check) else "a_Z"
 
 
 def _check_name(document: Document, row: SheetRow) -> str:
@@ -437,12 +423,15 @@ def method_name(document: Document, method: str) -> str:
         "nonlinear": _("nonlinear"),
         "dynamic": _("dynamic"),
         "site": _("site"),
+        "untied": _("curve without some ties"),
+        "assigned": _("hinge assigned"),
     }
     return document.text(names[method])
 
 
 def unit_of(row: SheetRow) -> Unit:
-    return CENTIMETRES if row.quantity in _LENGTHS else UNITS[row.unit]
+    """The unit of a number in tables: masses in t and forces in kN as in formulas, displacements in cm."""
+    return CENTIMETRES if row.quantity in _LENGTHS else COHERENT.get(row.unit, UNITS[row.unit])
 
 
 def value_of(document: Document, check: CodeCheck, row: SheetRow | None) -> Piece:
@@ -461,5 +450,15 @@ def value_of(document: Document, check: CodeCheck, row: SheetRow | None) -> Piec
 
 
 def outcome(document: Document, check: CodeCheck, key: tuple[str, str]) -> str:
-    """The verdict of a check in words; one that is not for the wall has none."""
-    return document.text(_OUTCOMES[check._verdict(key)])
+    """The verdict of a check in words; one that is not for the wall has none, and that of some is information."""
+    words = document.text(_OUTCOMES[check._verdict(key)])
+    return (
+        words
+        if key in check.required or key in check.not_applicable
+        else f"{words} ({document.text(_('information'))})"
+    )
+
+
+def required(document: Document, check: CodeCheck) -> str:
+    """The checks that the verdict rests on."""
+    return ", ".join(f"{method_name(document, method)} {state}" for method, state in check.required)

@@ -15,7 +15,7 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import Turning, sums_of, turning_of
 from dondolo.reporting.units import UNITS
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 
 # T_SLV of a curve of capacity that is a straight line: 1.68 pi sqrt(0.4/0.6)
 _STRAIGHT = 1.68 * math.pi * math.sqrt(0.4 / 0.6)
@@ -39,7 +39,7 @@ def comparisons(document: Document) -> list[Block]:
         (symbol_of("d_0*"), document.text(_(" of the weights alone, same control point [cm]"))),
         [100.0 * _bare_displacement(one) for one in several],
     )
-    periods = [one.check.value("nonlinear", "SLV", "period") for one in several]
+    periods = [one.check._outcome(("nonlinear", "SLV"), "period") for one in several]
     compare((symbol_of("T_SLV"), document.text(_(" of the check [s]"))), periods)
     straight = [_STRAIGHT * math.sqrt(_of(one, "d_0") / _of(one, "a_0")) for one in several]
     compare((symbol_of("T_SLV"), document.text(_(" of a straight capacity curve [s]"))), straight)
@@ -89,7 +89,12 @@ def _balance(one: Subject) -> float:
 
 
 def _bare_displacement(one: Subject) -> float:
-    """Displacement d_0* if the weights alone held the wall, without thrusts: at the control point of the check."""
+    """Displacement d_0* if the weights alone held the wall, without thrusts: at the control point of the check.
+
+    NaN of a table, whose moment is all that holds it and pushes it.
+    """
+    if isinstance(one.wall, TabulatedWall):
+        return math.nan
     if isinstance(one.wall, TwoBlockWall):
         return one.check.items[0].arm
     sums = turning_of(one.check.items)
@@ -106,7 +111,7 @@ def _bare_steps(document: Document) -> list[Block]:
     moment, second = UNITS["N m/m"], UNITS["N m2/m"]
     found: dict[float, Any] = {}
     for one in document.subjects.several:
-        if isinstance(one.wall, TwoBlockWall):
+        if not one.is_turning:
             continue
         sums = turning_of(one.check.items)
         sine, lowered = _bare_sine(sums), shown(sums.first - sums.pushed, moment)

@@ -7,18 +7,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from dondolo._fortran.checks import SheetRow
-from dondolo.reporting.blocks import Block, CaptionedTable, Field, Paragraph
+from dondolo.reporting import numerals
+from dondolo.reporting.blocks import Block, CaptionedTable, Field, Paragraph, symbol_of
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.project import Project
 from dondolo.reporting.relazione.subjects import Subject, Subjects
-from dondolo.reporting.relazione.terms import ITEMS, MEANINGS
+from dondolo.reporting.relazione.terms import MEANINGS, item_in_words, with_article
 
 # What sentences of the chapters are marked by for the catalogues
 _ = str
+# Accelerations of demand, with their symbols on the ground and on a floor
+_DEMANDS = {
+    "floor_pga": (_("peak acceleration"), "a_g S", "a_Z"),
+    "spectral_demand": (_("spectral acceleration"), "S_e", "S_eZ"),
+}
 
 
 @dataclass(frozen=True)
@@ -60,10 +64,12 @@ class Document:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Names of the walls: their states, or the mechanisms of a facade."""
+        """Names of the walls: their states, or the mechanisms of a facade or a building."""
         several = self.subjects.several
-        if self.subjects.facade or len(several) == 1:
-            return tuple(one.wall.name for one in several)
+        if self.subjects.are_mechanisms or len(several) == 1:
+            names = [one.wall.name for one in several]
+            # Columns are known by their names
+            return tuple(name if names.count(name) == 1 else f"{name} ({place})" for place, name in enumerate(names, 1))
         states = [self.text(_("as it stands"))]
         many = len(several) - 1
         for number in range(1, many + 1):
@@ -76,7 +82,7 @@ class Document:
     @property
     def has_one_hazard(self) -> bool:
         """Whether one a_g serves all limit states."""
-        return np.size(self.subjects.several[0].check.site.ag) == 1
+        return len(self.subjects.several[0].check.site.hazard.ag) == 1
 
     def state(self, name: str) -> str:
         """A limit state; of SLC it is said if it has no hazard of its own."""
@@ -97,13 +103,32 @@ class Document:
         """Names and walls."""
         return list(zip(self.names, self.subjects.several, strict=True))
 
-    def meaning(self, row: SheetRow) -> str:
-        """A quantity of the sheet in words."""
+    def meaning(self, row: SheetRow) -> Piece:
+        """A quantity of the sheet in words; of an acceleration of demand whether it is the ground's or a floor's."""
+        if row.quantity in _DEMANDS and (where := self._where):
+            words, ground, floor = _DEMANDS[row.quantity]
+            is_on_floor = any(one.is_on_floor for one in self.subjects.several)
+            return (f"{self.text(words)} ", symbol_of(floor if is_on_floor else ground), f" ({where})")
         if self.language.code == "en":
             # What the numbers of a verdict mean is of no use where there are words.
             words = row.meaning.partition(";")[0].removeprefix("1: ").removeprefix("0: ")
             return self.text(_("outcome")) if row.quantity == "verified" else words.partition(", 0: ")[0]
         return MEANINGS.get(row.quantity, row.quantity).partition(":")[0]
+
+    @property
+    def _where(self) -> str:
+        """Whose the demand of all walls is; '' where it is not of one place."""
+        found = {self._place_of(one) for one in self.subjects.several}
+        return found.pop() if len(found) == 1 else ""
+
+    def _place_of(self, one: Subject) -> str:
+        """Where the demand of a wall is."""
+        if not one.is_on_floor:
+            return self.text(_("on the ground"))
+        level = one.check._row("mechanism", "", "level")
+        if level is None:
+            return self.text(_("on a floor of the building"))
+        return self.text(_("level z = {level}"), level=self.language.plain(numerals.number(level.value, 4, " m")))
 
     def unit(self, name: str) -> str:
         """A unit in the language of the document."""
@@ -111,7 +136,8 @@ class Document:
 
     def item(self, name: str) -> str:
         """An item of the calculation, such as 'load 1', in words."""
-        if self.language.code == "en":
-            return name
-        word, _, number = name.rpartition(" ")
-        return f"{ITEMS[word]} {number}" if word in ITEMS else ITEMS.get(name, name)
+        return name if self.language.code == "en" else item_in_words(name)
+
+    def the_item(self, name: str) -> str:
+        """An item within a sentence: in Italian with its article."""
+        return name if self.language.code == "en" else with_article(item_in_words(name))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,11 +15,14 @@ from dondolo.figures.options import Options
 from dondolo.records.building import Building
 from dondolo.records.codes import LimitState
 from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.floors import building_in
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.reporting.relazione.sums import is_held, reactions_of
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.reporting.relazione.sums import is_held, reactions_of, taken_of, ties_left_out, without_of
+from dondolo.reporting.relazione.tabulated import Terms
+from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import shape
-from dondolo.walls.wall import upload
+from dondolo.walls.wall import MasonryWall, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,6 +35,8 @@ _POINTS = 400
 _CENTIMETRES = 100.0
 # A curve beyond its levels
 _BEYOND: dict[str, Any] = {"color": _MIDDLE, "linestyle": (0, (2, 2)), "linewidth": 0.9}
+# Sizes of the words in the scheme of the mechanism, which pages show at two thirds of its size
+_WORDS, _TITLES = 9.0, 10.5
 # Least rotation that is drawn [rad]
 _SEEN = 0.08
 
@@ -48,13 +54,15 @@ def _axes(document: Document, size: tuple[float, float], columns: int = 1) -> An
 
 def draw_wall(document: Document, one: Subject) -> Any:
     """A wall at rest with the items of its table, and displaced with the reactions at its hinge."""
-    rest, moved = _axes(document, (6.6, 5.2), 2)
-    wall = one.wall
+    rest, moved = _axes(document, (6.6, 4.2), 2)
+    wall = one.checked
+    assert isinstance(wall, MasonryWall)
     rotation = 0.45 * wall.capacity_angle
     if not isinstance(wall, TwoBlockWall):
         rotation = max(rotation, _SEEN)
     now, later = shape(wall, 0.0), shape(wall, rotation)
-    hinge, reach = now.hinges[0], max(1.3 * wall.thickness, 0.26 * wall.height)
+    hinge, behind = now.hinges[0], -min(float(block[:, 0].min()) for block in now.blocks)
+    reach = max(1.3 * wall.thickness, 0.26 * wall.height, behind)
     for ax in (rest, moved):
         for block in now.blocks:
             ax.fill(*block.T, facecolor=_PALE if ax is rest else "none", edgecolor=_DARK if ax is rest else _MIDDLE,
@@ -80,11 +88,27 @@ def draw_wall(document: Document, one: Subject) -> Any:
         start = (base[0] + side * 0.6 * reach, low)
         moved.annotate("", (base[0] + side * 0.08 * reach, low), start, arrowprops=_ARROW)
         moved.annotate(words, start, (4.0 * side, 0), textcoords="offset points", ha="left" if side > 0.0 else "right",
-                       va="center", fontsize=7.5)  # fmt: skip
-    rest.set_title(document.text(_("at rest")), fontsize=9)
-    moved.set_title(document.text(_("displaced, not to scale")), fontsize=9)
-    rest.annotate(document.text(_("hinge")), hinge, (6, -11), textcoords="offset points", fontsize=7.5)
+                       va="center", fontsize=_WORDS)  # fmt: skip
+    rest.set_title(document.text(_("at rest")), fontsize=_TITLES)
+    moved.set_title(document.text(_("displaced, not to scale")), fontsize=_TITLES)
+    rest.annotate(document.text(_("hinge")), hinge, (6, -11), textcoords="offset points", fontsize=_WORDS)
     return rest
+
+
+def draw_table(document: Document, one: Subject) -> Any:
+    """Moment and lever of a tabulated wall over its rotation, as the steps have them, and the rows of its table."""
+    panels = _axes(document, (6.6, 2.8), 2)
+    assert isinstance(one.wall, TabulatedWall)
+    terms = Terms(one.wall)
+    rotations = np.linspace(0.0, terms.rotation[-1], _POINTS)
+    for ax, name in zip(panels, ("M", "S"), strict=True):
+        ax.plot(rotations, [1e-3 * terms.at(name, rotation) for rotation in rotations], color=_DARK)
+        ax.plot(terms.rotation, 1e-3 * terms.columns[name], color=_MIDDLE, linestyle="none", marker="o", markersize=3.5,
+                markerfacecolor="none")  # fmt: skip
+        ax.set_ylim(bottom=0.0)
+        ax.set_xlabel("θ [rad]")
+        ax.set_ylabel(f"{name} [kNm/m]")
+    return panels[0]
 
 
 _SIZE = {
@@ -100,55 +124,81 @@ def _kilo(document: Document, value: float) -> str:
 
 def _arrow(ax: Axes, to: Any, start: Any, words: str, *, up: bool = False) -> None:
     ax.annotate("", to, start, arrowprops=_ARROW)
-    ax.annotate(words, start, (5, -2 if up else 1), textcoords="offset points", fontsize=7.5, va="center")
+    ax.annotate(words, start, (5, -2 if up else 1), textcoords="offset points", fontsize=_WORDS, va="center")
 
 
 def _dimensions(document: Document, ax: Axes, one: Subject, reach: float) -> None:
     """Heights of the storeys and thicknesses, in centimetres, beyond what pushes and holds the wall."""
+    wall = one.checked
+    assert isinstance(wall, MasonryWall)
     x, bottom = -1.05 * reach, 0.0
-    parts = getattr(one.wall, "sections", ()) or ()
-    sizes = [(part.height, part.thickness) for part in parts] or [(one.wall.height, one.wall.thickness)]
-    right = one.wall.thickness
-    if isinstance(one.wall, TwoBlockWall):
-        middle = one.wall.hinge * one.wall.height
-        sizes = [(middle, right), (one.wall.height - middle, right)]
+    parts = getattr(wall, "sections", ()) or ()
+    sizes = [(part.height, part.thickness) for part in parts] or [(wall.height, wall.thickness)]
+    right = wall.thickness
+    if isinstance(wall, TwoBlockWall):
+        middle = wall.hinge * wall.height
+        sizes = [(middle, right), (wall.height - middle, right)]
     for height, thickness in sizes:
         ax.annotate("", (x, bottom), (x, bottom + height), arrowprops=_SIZE)
         words = document.language.decimal(f"{_CENTIMETRES * height:.5g}")
         ax.annotate(words, (x, bottom + 0.5 * height), (-3, 0), textcoords="offset points", rotation=90, ha="right",
-                    va="center", fontsize=7)  # fmt: skip
+                    va="center", fontsize=_WORDS)  # fmt: skip
         words = document.language.decimal(f"{_CENTIMETRES * thickness:.5g}")
-        ax.annotate(words, (right - 0.5 * thickness, bottom + 0.12 * height), ha="center", fontsize=7)
+        ax.annotate(words, (right - 0.5 * thickness, bottom + 0.12 * height), ha="center", fontsize=_WORDS)
         bottom += height
-    ax.annotate("cm", (x, -0.06 * one.wall.height), ha="center", fontsize=7)
+    ax.annotate("cm", (x, -0.06 * one.wall.height), ha="center", fontsize=_WORDS)
+
+
+# Letters of the items; of what is not among them P
+_LETTERS = {"load": "N", "mass": "Q", "thrust": "H", "tie": "T", "friction": "F", "wedge": "C"}
+# Blocks of a strip: their weights, and whether the hinge is below them
+_BLOCKS = {"lower block": ("P1", 0.0), "upper block": ("P2", 1.0)}
+# Fields of a wall with the parts that items stand for
+_PARTS_OF = {"load": "loads", "mass": "inertial_masses", "thrust": "thrusts", "tie": "ties"}
 
 
 def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
     """Weights, thrusts and ties where they act."""
-    wall, right = one.wall, one.wall.thickness
+    wall = one.checked
+    assert isinstance(wall, MasonryWall)
+    right = wall.thickness
     for item in one.check.items:
+        if item.item in _BLOCKS and isinstance(wall, TwoBlockWall):
+            name, share = _BLOCKS[item.item]
+            z = wall.height * (0.5 * wall.hinge + share * 0.5)
+            ax.plot(0.5 * right, z, marker="+", markersize=8, color=_DARK)
+            ax.annotate(f"{name} = {_kilo(document, item.force)}", (right, z), (6, 0), textcoords="offset points",
+                        fontsize=_WORDS, va="center")  # fmt: skip
+        if item.item == "load on top" and isinstance(wall, TwoBlockWall):
+            x = 0.5 * right + (wall.eccentricity or 0.0)
+            ax.annotate("", (x, wall.height), (x, 1.09 * wall.height), arrowprops=_ARROW)
+            ax.annotate(f"N = {_kilo(document, item.force)}", (x, 1.05 * wall.height), (6, 0),
+                        textcoords="offset points", fontsize=_WORDS)  # fmt: skip
         if item.item == "masonry" or np.isnan(item.depth):
             continue
         word, _blank, count = item.item.rpartition(" ")
-        letter = {"section": "P", "load": "N", "mass": "Q", "thrust": "H", "tie": "T", "friction": "F"}.get(word, "P")
+        letter = _LETTERS.get(word, "P")
         words = f"{letter}{count} = {_kilo(document, item.force)}"
         x, z = right - item.depth, item.lever
+        if isinstance(wall, TwoBlockWall):
+            # The lever of what is on the upper block is no height
+            z = parts_of(wall, _PARTS_OF[word])[int(count) - 1].height
         if word == "thrust":
             _arrow(ax, (x, z), (-0.7 * reach, z), "")
-            ax.annotate(words, (-0.7 * reach, z), (0, -9), textcoords="offset points", fontsize=7.5)
+            ax.annotate(words, (-0.7 * reach, z), (0, -9), textcoords="offset points", fontsize=_WORDS)
         elif is_held(item):
             ax.plot([right, -0.75 * reach], [z, z], color=_DARK, linewidth=1.4)
             ax.plot(
                 [right + 0.02, right + 0.02], [z - 0.03 * wall.height, z + 0.03 * wall.height], color=_DARK, linewidth=3
             )
-            ax.annotate(words, (right + 0.06, z), (4, -8), textcoords="offset points", fontsize=7.5)
-        elif word == "section":
+            ax.annotate(words, (right + 0.06, z), (4, -8), textcoords="offset points", fontsize=_WORDS)
+        elif word in ("section", "wedge"):
             ax.plot(x, z, marker="+", markersize=8, color=_DARK)
-            ax.annotate(words, (right, z), (6, 0), textcoords="offset points", fontsize=7.5, va="center")
+            ax.annotate(words, (right, z), (6, 0), textcoords="offset points", fontsize=_WORDS, va="center")
         else:
             ax.annotate("", (x, z), (x, z + 0.09 * wall.height), arrowprops=_ARROW)
-            ax.annotate(words, (right, z + 0.05 * wall.height), (6, 0), textcoords="offset points", fontsize=7.5)
-    ax.annotate("kN/m", (right + 0.9 * reach, -0.06 * wall.height), ha="center", fontsize=7)
+            ax.annotate(words, (right, z + 0.05 * wall.height), (6, 0), textcoords="offset points", fontsize=_WORDS)
+    ax.annotate("kN/m", (right + 0.9 * reach, -0.11 * wall.height), ha="center", fontsize=_WORDS)
 
 
 def draw_capacity(document: Document, one: Subject) -> Any:
@@ -158,20 +208,25 @@ def draw_capacity(document: Document, one: Subject) -> Any:
     factor = check.value("mechanism", "SLV", "knowledge_factor")
     d, a = capacity_curve(upload((wall,)), factor, _POINTS)
     ax.plot(_CENTIMETRES * d, a, color=_DARK, linewidth=1.8, label=document.text(_("capacity, a(d)")))
+    for ties in dict.fromkeys(filter(None, (without_of(one, state) for state in ("SLV", "SLC")))):
+        less = capacity_curve(upload((_without(one, ties),)), factor, _POINTS)
+        words = document.text(_("capacity without {ties}"), ties=document.the_item(ties))
+        ax.plot(_CENTIMETRES * less[0], less[1], color=_DARK, linewidth=1.2, linestyle=(0, (5, 1)), label=words)
     longest = 0.0
-    lines: tuple[tuple[LimitState, str], ...] = (("SLV", "--"), ("SLC", ":"))
+    lines: tuple[tuple[LimitState, str], ...] = (("SLV", "--"), ("SLC", ":")) if one.has_ratios else ()
     for state, line in lines:
-        reached, period = (check.value("nonlinear", state, name) for name in ("displacement", "period"))
-        height = check.value("nonlinear", state, "acceleration")
-        longest = max(longest, reached, check.value("nonlinear", state, "demand"))
+        method = taken_of(one, state)
+        reached, period = (check.value(method, state, name) for name in ("displacement", "period"))
+        height = check.value(method, state, "acceleration")
+        longest = max(longest, reached, check.value(method, state, "demand"))
         periods = np.geomspace(0.02, max(4.0, 1.3 * period), _POINTS)
-        building = wall.building if one.is_on_floor else None
+        building = building_in(one, state, method)
         demand = check.site.spectrum(periods=periods, damping=_DAMPINGS[state], limit_state=state, building=building).sa
         words = document.text(_("demand, {state}"), state=state)
         if not _is_demand_of(one, state, period, building):
             # The code's spectrum of a strip is that between its floors: of it only the point at T is at hand.
-            ax.plot(_CENTIMETRES * check.value("nonlinear", state, "demand"),
-                    wall.gravity * check.value("nonlinear", state, "spectral_demand"),
+            ax.plot(_CENTIMETRES * check.value(method, state, "demand"),
+                    wall.gravity * check.value(method, state, "spectral_demand"),
                     marker="^" if state == "SLV" else "v", color=_MIDDLE, linestyle="none", label=words)  # fmt: skip
             continue
         ax.plot(_CENTIMETRES * wall.gravity * demand * (periods / (2.0 * np.pi)) ** 2, wall.gravity * demand,
@@ -191,7 +246,50 @@ def _is_demand_of(one: Subject, state: LimitState, period: float, building: Buil
     spectrum = one.check.site.spectrum(
         periods=[period, 1.01 * period], damping=_DAMPINGS[state], limit_state=state, building=building
     )
-    return math.isclose(spectrum.sa[0], one.check.value("nonlinear", state, "spectral_demand"), rel_tol=1e-9)
+    return math.isclose(spectrum.sa[0], one.check.value(taken_of(one, state), state, "spectral_demand"), rel_tol=1e-9)
+
+
+def _without(one: Subject, name: str) -> MasonryWall:
+    """The wall of a curve that does not count some ties."""
+    left_out = ties_left_out(one, name)
+    ties = [tie for place, tie in enumerate(parts_of(one.wall, "ties")) if f"tie {place + 1}" not in left_out]
+    assert isinstance(one.wall, MasonryWall)
+    wall = replace(one.wall, ties=ties)  # type: ignore[call-arg]
+    hinges = [row.value for row in one.check.rows if (row.method, row.item, row.quantity) == ("untied", name, "hinge")]
+    return replace(wall, hinge=hinges[0]) if hinges else wall  # type: ignore[call-arg]
+
+
+def draw_floor(document: Document, one: Subject) -> Any:
+    """The spectrum of the floor at SLV, with the building that the demand has and as it is given, and of the ground."""
+    ax = _axes(document, (6.0, 3.1))
+    check, state = one.check, "SLV"
+    method = taken_of(one, state)
+    period = check.value(method, state, "period")
+    periods = np.linspace(0.0, max(2.0, 1.3 * period), _POINTS)[1:]
+    building, given = building_in(one, "SLV", method), building_in(one, "SLV")
+    assert building is not None
+    assert given is not None
+
+    def drawn(of: Building | None, words: str, **look: Any) -> None:
+        found = check.site.spectrum(periods=periods, damping=_DAMPINGS["SLV"], building=of)
+        ax.plot(periods, found.sa, label=words, **look)
+
+    first = document.language.decimal(f"{max(building.periods):.3g}")
+    drawn(building, document.text(_("floor, building with T = {period} s"), period=first), color=_DARK, linewidth=1.8)
+    if building.periods != given.periods:
+        first = document.language.decimal(f"{max(given.periods):.3g}")
+        words = document.text(_("floor, building with T = {period} s"), period=first)
+        drawn(given, words, color=_MIDDLE, linestyle="--")
+    drawn(None, document.text(_("ground")), color=_MIDDLE, linestyle=":")
+    ax.plot(period, check.value(method, state, "spectral_demand"), marker="o", color=_DARK, linestyle="none",
+            label=style.in_math("S_eZ(T_SLV)"), gid=style.FORMULA)  # fmt: skip
+    ax.axvline(period, color=_MIDDLE, linewidth=0.8)
+    ax.set_xlim(0.0, periods[-1])
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel("T [s]")
+    ax.set_ylabel(style.in_math("S_eZ [g]"))
+    style.legend(ax, Options({}))
+    return ax
 
 
 def draw_anchor(document: Document, one: Subject, item: str) -> Any:
@@ -300,7 +398,7 @@ def draw_spectra(document: Document) -> Any:
     ax = _axes(document, (6.0, 3.1))
     check = document.subjects.several[0].check
     periods = np.linspace(0.0, 4.0, _POINTS)[1:]
-    states = _STATES if np.size(check.site.ag) > 1 else ("SLV",)
+    states = _STATES if len(check.site.hazard.ag) > 1 else ("SLV",)
     for state, line in zip(states, _LINES, strict=False):
         ax.plot(periods, check.site.spectrum(periods=periods, limit_state=state).sa, color=_DARK, linestyle=line,
                 label=state if len(states) > 1 else None)  # fmt: skip
@@ -317,7 +415,7 @@ def draw_fragility(document: Document) -> Any:
     """Fragility curves of the walls, with the peak acceleration of the site."""
     ax = _axes(document, (6.0, 3.4))
     named = [(name, one.curve) for name, one in document.each()]
-    if document.subjects.facade:
+    if document.subjects.facade and document.subjects.union is not None:
         named.append((document.subjects.facade, document.subjects.union))
     drawn = [(name, curve) for name, curve in named if curve is not None and curve.has_fit]
     pga = document.subjects.several[0].check.pga

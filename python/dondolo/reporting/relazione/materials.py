@@ -15,8 +15,8 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import of_tie, sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
-from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import parts_of
+from dondolo.walls.wall import MasonryWall
 
 # Partial factor of the masonry in seismic checks (Circolare, C8.7.1), of the strengths at plates
 _GAMMA = "gamma_M"
@@ -65,7 +65,7 @@ def _masonry(document: Document) -> list[_Row]:
     strengths = [getattr(wall, "compressive_strength", None) for wall in walls]
     factors = [one.check.value("mechanism", "SLV", "knowledge_factor") for one in several]
     rows: list[_Row] = [
-        (document.text(_("density [kg/m³]")), "density", [number(wall.density) for wall in walls]),
+        (document.text(_("density [kg/m³]")), "density", [number(getattr(wall, "density", None)) for wall in walls]),
         (
             (document.text(_("mean compressive strength at the hinge")), " ", symbol_of("f_m"), " [MPa]"),
             "compressive_strength",
@@ -74,11 +74,14 @@ def _masonry(document: Document) -> list[_Row]:
         (
             (document.text(_("depth of the hinge")), " ", symbol_of("u"), " [cm]"),
             "hinge_depth",
-            [cell(wall.base_hinge_depth, CENTIMETRES) for wall in walls],
+            [cell(getattr(wall, "base_hinge_depth", None), CENTIMETRES) for wall in walls],
         ),
     ]
     if any(strengths):
         rows[-1] = (rows[-1][0], "compressive_strength", rows[-1][2])
+    given = [one.check._given_factor for one in several]
+    if given != factors:
+        rows.append((document.text(_("confidence factor FC of the level of knowledge")), "", [*map(number, given)]))
     return [*rows, (document.text(_("confidence factor FC of the check")), "knowledge_factor", [*map(number, factors)])]
 
 
@@ -129,7 +132,7 @@ def _of_plates(one: Subject, field: str) -> tuple[float, bool]:
     check, item, wall = one.check, _plate_of(one), one.wall
     factor = check.value("tie", "", "anchor_knowledge", item=item)
     given = getattr(wall, field, None)
-    partial = wall.masonry_shear / (factor * check.value("tie", "", "shear_strength", item=item))  # type: ignore[attr-defined]
+    partial = wall.masonry_shear / (factor * check.value("tie", "", "shear_strength", item=item))  # type: ignore[union-attr]
     if field == _GAMMA:
         return partial, False
     if field == "masonry_knowledge_factor":
@@ -175,9 +178,9 @@ def _hinge(document: Document) -> list[Block]:
     made: list[Any] = []
     for name, one in document.each():
         factor, sums = one.check.value("mechanism", "SLV", "knowledge_factor"), sums_of(one.check.items)
-        is_turning = not isinstance(one.wall, TwoBlockWall)
-        if not getattr(one.wall, "compressive_strength", None) or factor <= 1.0 or not is_turning:
+        if not getattr(one.wall, "compressive_strength", None) or factor <= 1.0 or not one.is_turning:
             continue
+        assert isinstance(one.wall, MasonryWall)
         deeper = (factor - 1.0) * one.wall.base_hinge_depth
         multiplier = sums["alpha_0"] - sums["carried"] * deeper / sums["force_lever"]
         depth = quantity(one.wall.base_hinge_depth + deeper, CENTIMETRES)
@@ -199,7 +202,7 @@ def _factors(document: Document) -> list[Block]:
         if not (item := _plate_of(one)):
             continue
         plates = one.check.value("tie", "", "anchor_knowledge", item=item)
-        factor = one.check.value("mechanism", "SLV", "knowledge_factor")
+        factor = one.check._given_factor
         if plates == factor:
             continue
         words = _(
@@ -226,11 +229,10 @@ def _check_level(level: str, one: Subject) -> None:
     if len(named) != 1 or not named <= _FACTORS.keys():
         raise argument_error("not_a_word", "knowledge_level", f" = {level!r}: must name one of {', '.join(_FACTORS)}")
     least = _FACTORS[named.pop()]
-    factor = one.check.value("mechanism", "SLV", "knowledge_factor")
+    factor = one.check._given_factor
     if factor < least:
         raise argument_error(
             "not_together",
             "knowledge_level",
-            f" = {level!r}: asks for a confidence factor of {least:g}, but wall '{one.wall.name}' is"
-            f" checked with {factor:g}",
+            f" = {level!r}: asks for a confidence factor of {least:g}, but wall '{one.wall.name}' is given {factor:g}",
         )

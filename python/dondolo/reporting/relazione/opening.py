@@ -6,25 +6,26 @@ import math
 from collections.abc import Sequence
 from typing import Any, Literal
 
-import numpy as np
-
 from dondolo._fortran.checks import ntc_parameters
 from dondolo._fortran.library import constants
 from dondolo.errors import InputError
 from dondolo.figures.style import mechanism_name
 from dondolo.records.codes import LimitState
-from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, Picture, symbol_of
+from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, Picture, Stamp, symbol_of
 from dondolo.reporting.content import Piece, Table
-from dondolo.reporting.numerals import NONE, number, whole
-from dondolo.reporting.relazione.checks import governed, method_name
+from dondolo.reporting.numerals import NONE, number
+from dondolo.reporting.relazione.checks import governed, method_name, required
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_spectra
+from dondolo.reporting.relazione.outcome import notes_of, runs_of
+from dondolo.reporting.relazione.site_grid import coordinates, grid
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.reporting.relazione.sums import of_tie, ratios_of
+from dondolo.reporting.relazione.sums import of_tie
 from dondolo.reporting.relazione.terms import MECHANISMS
 from dondolo.reporting.relazione.ties import open_ties_of
+from dondolo.reporting.tested import sentences
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
-from dondolo.walls.mechanisms import OneSidedWall, TwoBlockWall
+from dondolo.walls.mechanisms import OneSidedWall, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
 _STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
@@ -42,20 +43,37 @@ def title_page(document: Document) -> list[Block]:
         (document.text(_("Revision")), words.get("revision", "0")),
         (document.text(_("Walls")), "; ".join(document.names)),
     ]
+    found = [notes_of(document, one) for _name, one in runs_of(document)]
+    counts = [sum(len(notes[place]) for notes in found) for place in range(2)]
+    words_of_notes = _("warnings on the calculation: {warnings}, remarks on the checks: {remarks} (chapter 16)")
+    pairs.append((document.text(_("To be read")), document.text(words_of_notes, warnings=counts[0], remarks=counts[1])))
     return [
         Heading(document.text(_("Calculation report: local mechanisms of masonry walls")), 0),
         Facts(tuple(pairs)),
         *_whole(document),
         *(_verdict(document, name, one) for name, one in document.each()),
+        Stamp(document.text(_("Stamp and signature of the designer"))),
     ]
 
 
 def _whole(document: Document) -> list[Block]:
-    """The safety index of a facade: the least of its mechanisms."""
-    if not document.subjects.facade:
+    """The safety index of a facade, or of several mechanisms of a building: the least of them."""
+    if not document.subjects.are_mechanisms:
         return []
     least = document.subjects.least
-    sentence = _("{facade}: {zeta} = {index}, the least of its mechanisms, that of {name}.")
+    if not least.has_ratios:
+        sentence = (
+            _("{facade}: check NOT feasible, since that of its mechanism {name} is not.")
+            if document.subjects.facade
+            else _("The check of {name} is NOT feasible.")
+        )
+        words = document.say(sentence, facade=document.subjects.facade, name=least.wall.name)
+        return [Note("failed", words.pieces)]
+    sentence = (
+        _("{facade}: {zeta} = {index}, the least of its mechanisms, that of {name}.")
+        if document.subjects.facade
+        else _("Least safety index of the mechanisms of this report: {zeta} = {index}, that of {name}.")
+    )
     values = {"facade": document.subjects.facade, "zeta": symbol_of("ζ_E"), "name": least.wall.name}
     kind: Literal["failed", "plain"] = "plain" if least.index >= 1.0 else "failed"
     return [Note(kind, document.say(sentence, index=number(least.index), **values).pieces)]
@@ -64,24 +82,44 @@ def _whole(document: Document) -> list[Block]:
 def _verdict(document: Document, name: str, one: Subject) -> Note:
     """What the checks of a wall come to; never 'fine' where something of a tie is open."""
     check = one.check
-    verdicts = [holds for key, holds in check.verified.items() if key not in check.not_applicable]
-    values = {"wall": name, "many": whole(len(verdicts)), "zeta": symbol_of("ζ_E"), "index": number(one.index)}
-    values["what"] = governed(document, ratios_of(one, "SLV"))
+    values = {"wall": name, "which": required(document, check), "zeta": symbol_of("ζ_E"), "index": number(one.index)}
+    if not one.has_ratios:
+        sentence = _(
+            "{wall}: check NOT feasible: the base is {level} above the ground, and the spectrum at this level is not"
+            " given (Circolare, C8.7.1.2.1.5, C8.7.1.2.1.8)."
+        )
+        level = quantity(check.value("mechanism", "", "level"), UNITS["m"])
+        return Note("failed", document.say(sentence, wall=name, level=level).pieces)
+    values["what"] = governed(document, one, check.ultimate_state)
     found = {name for names in open_ties_of(check).values() for name in names}
     reasons = [document.text(words) for name, words in _OPEN.items() if name in found]
+    if check.sliding:
+        reasons.append(document.text(_("a hinge slides before it turns")))
     if document.has_one_hazard:
         reasons.append(document.text(_("SLC with the only hazard given, not that of SLC at the site")))
     for method, state in check.not_applicable:
         reasons.append(f"{method_name(document, method)} {state} {document.text(_('not applicable'))}")
     more: tuple[Any, ...] = ("; " + "; ".join(reasons) + ".",) if reasons else (".",)
-    if not all(verdicts):
-        sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV, {what})")
-        return Note("failed", (*document.say(sentence, failed=whole(verdicts.count(False)), **values).pieces, *more))
+    if not all(check._verified[key] for key in check.required):
+        sentence = _("{wall}: NOT satisfied ({which}); {zeta} = {index} ({what})")
+        return Note("failed", (*document.say(sentence, **values).pieces, *more))
+    if one.is_bent and not found:
+        sentence = _(
+            "{wall}: no check of rigid blocks fails that the verdict rests on ({which}), but the strip bends before it"
+            " opens, which they neglect; {zeta} = {index} ({what})"
+        )
+        return Note("doubt", (*document.say(sentence, **values).pieces, *more))
     if found:
         # What is open of a tie may turn any of them: nothing is called satisfied.
-        sentence = _("{wall}: ties open, none of {many} checks fails; {zeta} = {index} (nonlinear SLV, {what})")
+        sentence = _("{wall}: ties open, no check fails that the verdict rests on ({which}); {zeta} = {index} ({what})")
         return Note("doubt", (*document.say(sentence, **values).pieces, *more))
-    sentence = _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV, {what})")
+    if check.sliding:
+        sentence = _(
+            "{wall}: no check fails that the verdict rests on ({which}), but the mechanism is not the first to start;"
+            " {zeta} = {index} ({what})"
+        )
+        return Note("doubt", (*document.say(sentence, **values).pieces, *more))
+    sentence = _("{wall}: satisfied ({which}); {zeta} = {index} ({what})")
     return Note("fine", (*document.say(sentence, **values).pieces, *more))
 
 
@@ -116,8 +154,7 @@ def norms(document: Document) -> list[Block]:
                 " whether use"
                 " may continue, be changed, or safety be raised (NTC 8.3). The safety index {zeta} is the"
                 " largest seismic"
-                " action sustained over that of a new building, compared in {ags} (Circolare, C8.3), as it stands and"
-                " with the design."
+                " action sustained over that of a new building, compared in {ags} (Circolare, C8.3)."
             ),
             zeta=symbol_of("ζ_E"),
             ags=symbol_of("a_g S"),
@@ -138,23 +175,31 @@ def site(document: Document) -> list[Block]:
             return document.field(name, prompt)
         return (number(numbers[name], 8, unit), f" ({assumed})")
 
-    pairs: list[tuple[Piece, Any]] = [
-        (
-            document.text(_("Latitude, longitude")),
-            (given("latitude", _("latitude")), ", ", given("longitude", _("longitude"))),
-        ),
-        (
-            (document.text(_("Nominal life")), " ", symbol_of("V_N")),
-            given("nominal_life", _("nominal life"), _years(document)),
-        ),
-        (
-            (document.text(_("Coefficient of use")), " ", symbol_of("C_U")),
-            given("use_coefficient", _("coefficient of use")),
-        ),
-    ]
-    life = check.site.reference_life
-    if {"nominal_life", "use_coefficient"} <= numbers.keys():
+    hazard = check.site.hazard
+    mesh = hazard.mesh
+    pairs: list[tuple[Piece, Any]] = (
+        coordinates(document, check.site, mesh)
+        if mesh
+        else [
+            (
+                document.text(_("Latitude, longitude")),
+                (given("latitude", _("latitude")), ", ", given("longitude", _("longitude"))),
+            ),
+            (
+                (document.text(_("Nominal life")), " ", symbol_of("V_N")),
+                given("nominal_life", _("nominal life"), _years(document)),
+            ),
+            (
+                (document.text(_("Coefficient of use")), " ", symbol_of("C_U")),
+                given("use_coefficient", _("coefficient of use")),
+            ),
+        ]
+    )
+    life = hazard.reference_life or None
+    stated = life if mesh else None
+    if not mesh and {"nominal_life", "use_coefficient"} <= numbers.keys():
         stated = numbers["nominal_life"] * numbers["use_coefficient"]
+    if stated is not None:
         if life is not None and not math.isclose(life, stated, rel_tol=1e-9):
             raise InputError(
                 f"nominal_life, use_coefficient: their product is {stated:g} years, but the reference_life of the check"
@@ -173,7 +218,7 @@ def site(document: Document) -> list[Block]:
         (document.text(_("Ground")), ground),
         (document.text(_("Reference of the class of soil")), document.word("soil_reference", _("geological report"))),
     ]
-    states = _STATES if np.size(check.site.ag) > 1 else ("SLV",)
+    states = _STATES if len(hazard.ag) > 1 else ("SLV",)
     heads: list[tuple[str, str]] = [
         ("a_g", "g"),
         ("F_0", ""),
@@ -188,14 +233,13 @@ def site(document: Document) -> list[Block]:
         document.text(_("limit state")): [one if len(states) > 1 else document.text(_("all")) for one in states]
     }
     rows = []
-    exceedance = check.site.exceedance
-    has_periods = exceedance is not None and len(states) > 1
+    has_periods = bool(hazard.exceedance) and len(states) > 1
     for state in states:
         spectrum = ntc_parameters(check.site._input(), state)
         names = ("ag", "f0", "tc_star", "soil_factor")
         rows.append([*(check.value("site", state, name) for name in names), *spectrum.corners.tolist(), spectrum.pga])
-        if exceedance is not None and has_periods:
-            rows[-1] += [exceedance[len(rows) - 1], check.value("site", state, "return_period_demand")]
+        if has_periods:
+            rows[-1] += [hazard.exceedance[len(rows) - 1], check.value("site", state, "return_period_demand")]
     if has_periods:
         heads += [("P_VR", ""), ("T_R,D", document.text(_("years")))]
     for place, (symbol, unit) in enumerate(heads):
@@ -210,7 +254,9 @@ def site(document: Document) -> list[Block]:
             document.text(_("Elastic spectra of acceleration against period.")),
         ),
     ]
-    if has_periods:
+    if mesh:
+        blocks += grid(document, hazard, mesh)
+    elif has_periods:
         words = _(
             "Return periods are those of reference life and probabilities of exceedance, both assumed by the designer:"
             " {symbol} = -{life}/ln(1 - {chance}) (NTC 3.2.1)."
@@ -235,20 +281,22 @@ def modelling(document: Document) -> list[Block]:
     blocks: list[Block] = [Heading(document.text(_("Criteria of modelling")))]
     walls = [one.wall for one in document.subjects.several]
     for name, one in document.each():
-        words = mechanism_name(one.wall.mechanism) if document.language.code == "en" else MECHANISMS[one.wall.mechanism]
-        sizes = {
-            "height": quantity(one.wall.height, UNITS["m"]),
-            "thickness": quantity(one.wall.thickness, CENTIMETRES),
-        }
+        words = _mechanism(document, one.wall.mechanism)
+        height = quantity(one.wall.height, UNITS["m"])
+        if isinstance(one.wall, TabulatedWall):
+            sentence = _("{wall}: {mechanism}, height {height}.")
+            blocks.append(document.say(sentence, wall=name, mechanism=words, height=height))
+            continue
         blocks.append(
             document.say(
                 _("{wall}: {mechanism}, height {height}, thickness at the base {thickness}."),
                 wall=name,
                 mechanism=words,
-                **sizes,
+                height=height,
+                thickness=quantity(one.wall.thickness, CENTIMETRES),
             )
         )
-    if any(not isinstance(wall, TwoBlockWall) for wall in walls):
+    if any(one.is_turning for one in document.subjects.several):
         blocks.append(
             document.say(
                 _(
@@ -263,10 +311,12 @@ def modelling(document: Document) -> list[Block]:
                 a0=symbol_of("a_0*"),
             )
         )
-    if any(wall.base_hinge_depth > 0.0 for wall in walls):
+    if any(getattr(wall, "compressive_strength", None) for wall in walls):
         blocks.append(
             document.say(_("The hinge is set back from the face by the compressive strength of the masonry."))
         )
+    if any(getattr(wall, "hinge_depth", None) for wall in walls):
+        blocks.append(document.say(_("The hinge is set back from the face by a depth that the designer gives.")))
     if any(isinstance(wall, TwoBlockWall) for wall in walls):
         blocks.append(
             document.say(
@@ -275,14 +325,20 @@ def modelling(document: Document) -> list[Block]:
                     " intermediate"
                     " height and at the top, which the floor holds. The load on top is held sideways by the"
                     " floor: it is"
-                    " neither in the denominator of the multiplier nor in the participating mass. Other"
-                    " programs count it"
-                    " there, and obtain greater accelerations of activation."
+                    " neither in the denominator of the multiplier nor in the participating mass."
                 )
             )
         )
+    if any(isinstance(wall, TabulatedWall) for wall in walls):
+        words = _(
+            "A wall is a table of the terms of its mechanism of one degree of freedom, a kinematic chain that the"
+            " designer has studied. dondolo checks that the table agrees with itself at rest: the lever with weights"
+            " and displacements, and the displacement of the equivalent oscillator with C8.7.1.4."
+        )
+        blocks.append(document.say(words))
     if any(isinstance(wall, OneSidedWall) for wall in walls):
-        blocks.append(document.say(_("Transverse walls prevent rotation inwards.")))
+        blocks.append(document.say(_("The calculation assumes that the wall does not turn inwards.")))
+        blocks += document.written("inward_rotation", _("why the wall does not turn inwards"))
     if any(parts_of(wall, "ties") for wall in walls):
         words = _(
             "Ties act with the least of the yield force of the bar and the strength of the anchor, if that is known,"
@@ -296,13 +352,36 @@ def modelling(document: Document) -> list[Block]:
         )
     if any(parts_of(wall, "interlock") for wall in walls):
         blocks.append(document.say(_("Interlocking with the transverse walls acts by friction, course by course.")))
+    if any(parts_of(wall, "wedges") for wall in walls):
+        words = _(
+            "Wedges of the transverse walls turn with the wall: their angles and lengths are a judgement on the bond of"
+            " the masonry. They act by their weight and their mass alone, without friction on the cracks."
+        )
+        blocks.append(document.say(words))
     if any(one.is_on_floor for one in document.subjects.several):
         blocks.append(
             document.say(
                 _("The demand is that of the building at the level of the wall (Circolare, C7.2.3, C8.7.1.12).")
             )
         )
+    if any("modal_" in row.quantity for one in document.subjects.several for row in one.check.rows):
+        names = {"a_z": "a_Z", "pga": "a_g S", "s_ez": "S_eZ", "s_e": "S_e"}
+        words = _(
+            "Near the ground the modes of the building give less than the ground itself, which then governs: {a_z} is"
+            " at least {pga}, and {s_ez} at least {s_e} at every period. This is assumed by analogy with [C7.2.11];"
+            " [C7.2.5] has it beyond the first period only."
+        )
+        blocks.append(document.say(words, **{key: symbol_of(symbol) for key, symbol in names.items()}))
+    found = sentences(
+        (wall.mechanism for wall in walls), lambda one: _mechanism(document, one), document.language.decimal
+    )
+    blocks += [document.say(words, **values) for words, values in found]
     return blocks + document.written("mechanism", _("reasons for the mechanism chosen, from survey and details"))
+
+
+def _mechanism(document: Document, mechanism: str) -> str:
+    """A mechanism in the words of the document."""
+    return mechanism_name(mechanism) if document.language.code == "en" else MECHANISMS[mechanism]
 
 
 def _travels(document: Document) -> tuple[Any, ...]:

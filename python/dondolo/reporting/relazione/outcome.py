@@ -1,39 +1,34 @@
-"""Chapters 13 to 16 of a calculation report and its annexes: histories, fragility, summary and run."""
+"""Chapters 13 to 16 of a calculation report: histories, fragility, summary and run."""
 
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from dondolo._storage.run_file import RECORD_FACTS, RunFile
+from dondolo._storage.run_file import RunFile
+from dondolo.checks.side_by_side import chance_at
 from dondolo.curves.fragility import Fragility
-from dondolo.exchange.case_text import case_text
 from dondolo.reporting.blocks import (
-    Annexes,
     Block,
     CaptionedTable,
     Heading,
-    Listing,
     Note,
     Picture,
     symbol_of,
 )
 from dondolo.reporting.content import BETA, THETA, Piece, Table
-from dondolo.reporting.numerals import NONE, Numeral, number, probability, whole
+from dondolo.reporting.numerals import NONE, Numeral, chance, number, probability, whole
 from dondolo.reporting.relazione.checks import governed, method_name, outcome, value_of
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_fragility, draw_indices
-from dondolo.reporting.relazione.sums import ratios_of
 from dondolo.reporting.relazione.terms import status, warning
 from dondolo.reporting.units import CENTIMETRES, UNITS, cell
 
 _CHECKS = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
 _DYNAMIC = (("dynamic", "SLV"), ("dynamic", "SLC"))
 _STATES = ("SLD", "SLV", "SLC")
-_DECIMAL = re.compile(r"\d+\.\d+")
 
 
 def histories(document: Document) -> list[Block]:
@@ -48,7 +43,7 @@ def histories(document: Document) -> list[Block]:
         "mean_displacement": document.text(_("mean of the largest displacements [cm]")),
         "displacement": document.text(_("capacity [cm]")),
     }
-    made = [(name, one, key) for name, one in document.each() for key in _DYNAMIC if key in one.check.verified]
+    made = [(name, one, key) for name, one in document.each() for key in _DYNAMIC if key in one.check._verified]
     columns: dict[Piece, Sequence[Piece]] = {
         document.text(_("wall")): [name for name, *_rest in made],
         document.text(_("limit state")): [document.state(state) for *_rest, (_method, state) in made],
@@ -146,9 +141,9 @@ def summary(document: Document) -> list[Block]:
         words = ", ".join((name, document.text(_("capacity / demand"))))
         head_of: Piece = (f"{name}, ", symbol_of("ζ_E")) if state == "SLV" else words
         rows.append((head_of, [number(ratio, 4) for ratio in ratios]))
-        if (method, state) == ("nonlinear", "SLV"):
+        if (method, state) == ("nonlinear", several[0].check.ultimate_state):
             words = ", ".join((name, document.text(_("governed by"))))
-            rows.append((words, [governed(document, ratios_of(one, state)) for one in several]))
+            rows.append((words, [governed(document, one, state) for one in several]))
         rows.append(
             (
                 f"{name}, {document.text(_('outcome'))}",
@@ -157,6 +152,9 @@ def summary(document: Document) -> list[Block]:
         )
     periods = [("nonlinear", state, "return_period_capacity") for state in ("SLV", "SLC")]
     has_periods = any(one.check._has(*periods[0]) for one in several)
+    ultimate = several[0].check.ultimate_state
+    head = (f"{document.text(_('safety index of the wall'))} ({method_name(document, 'nonlinear')} {ultimate}), ",)
+    rows.append(((*head, symbol_of("ζ_E")), [number(one.index, 4) for one in several]))
     for method, state, quantity in periods if has_periods else []:
         head_of = (f"{method_name(document, method)} {state}, ", symbol_of("T_R,C"), f" [{document.unit('years')}]")
         found = [value_of(document, one.check, one.check._row(method, state, quantity)) for one in several]
@@ -165,17 +163,22 @@ def summary(document: Document) -> list[Block]:
         if document.subjects.has_histories:
             name = f"{method_name(document, method)} {document.state(state)}, {document.text(_('outcome'))}"
             key = (method, state)
-            found = [outcome(document, one.check, key) if key in one.check.verified else NONE for one in several]
+            found = [outcome(document, one.check, key) if key in one.check._verified else NONE for one in several]
             rows.append((name, found))
     blocks: list[Block] = [
         Heading(document.text(_("Summary of the checks"))),
         document.beside(document.text(_("quantity")), rows, document.text(_("Checks of all walls."))),
     ]
     least = document.subjects.least
-    if document.subjects.facade:
-        index = _("The least safety index of the facade is {index}, of the mechanism {name}.")
+    if document.subjects.are_mechanisms and least.has_ratios:
+        index = (
+            _("The least safety index of the facade is {index}, of the mechanism {name}.")
+            if document.subjects.facade
+            else _("The least safety index of these mechanisms is {index}, of {name}.")
+        )
         blocks.append(document.say(index, index=number(least.index, 4), name=least.wall.name))
-    elif len(several) > 1:
+        blocks.append(_mechanisms(document))
+    elif len(several) > 1 and not document.subjects.are_mechanisms:
         blocks += _differences(document)
     if not has_periods:
         blocks.append(document.say(_why_no_period(document)))
@@ -200,35 +203,95 @@ def summary(document: Document) -> list[Block]:
         *document.written(
             "building_index", _("safety index of the building, and the other mechanisms that were checked")
         ),
-        document.say(
-            _(
-                "For information: improvement asks for {zeta} of at least {schools} for schools of class III"
-                " and for class IV,"
-                " and for an increase of at least {increase} for other buildings of class III and for class II"
-                " (NTC 8.4.2);"
-                " adjustment asks for at least {full}, or {reduced} in cases c and e (NTC 8.4.3). Class and"
-                " kind of work are"
-                " for the designer to state."
+        *_interventions(document),
+    ]
+    return blocks
+
+
+def _mechanisms(document: Document) -> CaptionedTable:
+    """Mechanisms beside each other, the one of the least safety index last."""
+    ordered = sorted(document.each(), key=lambda pair: -pair[1].index)
+    state = ordered[0][1].check.ultimate_state
+    periods = [one.check._row("nonlinear", state, "return_period_capacity") for _name, one in ordered]
+    hinges = [one.check._row("mechanism", state, "hinge") for _name, one in ordered]
+    chances = [chance_at(one.curve, one.check.value("site", state, "pga")) for _name, one in ordered]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("mechanism")): [name for name, _one in ordered],
+        document.text(_("hinge, height over that of the wall")): [number(row.value if row else 0.0) for row in hinges],
+        symbol_of("alpha_0"): [number(one.check.value("mechanism", state, "alpha_0")) for _name, one in ordered],
+        (symbol_of("a_0*"), " [m/s²]"): [number(one.check.value("mechanism", state, "a_0")) for _name, one in ordered],
+        (symbol_of("ζ_E"), f", {state}"): [number(one.index) for _name, one in ordered],
+    }
+    if any(periods):
+        columns[symbol_of("T_R,C"), f" [{document.unit('years')}]"] = [
+            value_of(document, one.check, row) for (_name, one), row in zip(ordered, periods, strict=True)
+        ]
+    if any(chances):
+        columns[document.text(_("P(collapse) at the site"))] = [
+            NONE if one is None else chance(*one) for one in chances
+        ]
+    caption = document.text(_("Mechanisms beside each other, that of the least safety index last."))
+    return CaptionedTable(Table.of(columns), caption, strong=1)
+
+
+def _interventions(document: Document) -> list[Block]:
+    """What NTC 2018 ask of interventions, beside the index; the verdict on one is the designer's."""
+    values = {
+        "local": {}, "improved": {"schools": number(0.6), "increase": number(0.1)},
+        "full": {"full": Numeral("1.0"), "reduced": Numeral("0.80")},
+    }  # fmt: skip
+    conditions = [
+        document.say(words, zeta=symbol_of("ζ_E"), **values.get(name, {})).pieces
+        for name, words in (
+            ("assessment", _("{zeta} and the return period of the capacity are stated")),
+            ("local", _("no mechanism may lose safety, one at least must gain; repair of damage: none may lose")),
+            (
+                "improved",
+                _(
+                    "of the building: {zeta} of at least {schools} for schools of class III and for class IV, raised by"
+                    " at least {increase} for the rest of class III and for class II; class I is not named, cultural"
+                    " heritage has no limit"
+                ),
             ),
-            zeta=symbol_of("ζ_E"),
-            schools=number(0.6),
-            increase=number(0.1),
-            full=Numeral("1.0"),
-            reduced=Numeral("0.80"),
+            ("full", _("of the building: {zeta} of at least {full} in cases a, b and d, {reduced} in cases c and e")),
+        )
+    ]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("intervention")): [
+            document.text(words)
+            for words in (_("evaluation"), _("repair or local work"), _("improvement"), _("adjustment"))
+        ],
+        document.text(_("condition of the norm")): conditions,
+        document.text(_("place")): ["NTC 8.3", "NTC 8.4.1, C8.4.1", "NTC 8.4.2", "NTC 8.4.3"],
+    }
+    blocks: list[Block] = [
+        CaptionedTable(
+            Table.of(columns, [*map(document.text, (_("intervention"), _("condition of the norm"), _("place")))]),
+            document.text(_("What NTC 2018 ask of interventions.")),
+        ),
+        document.say(
+            _("Class of use and kind of work are for the designer to state, and so is what follows from them.")
         ),
     ]
+    if document.subjects.are_mechanisms:
+        return blocks
+    (_name, first), *others = document.each()
+    for name, one in others:
+        if math.isclose(one.index, first.index, rel_tol=1e-9):
+            sentence = _("{wall}: no increase is demonstrated at {state}.")
+            blocks.append(document.say(sentence, wall=name, state=one.check.ultimate_state))
     return blocks
 
 
 def _why_no_period(document: Document) -> str:
     """Why the capacity has no return period."""
-    site = document.subjects.several[0].check.site
-    if np.size(site.ag) < len(_STATES):
+    ag = document.subjects.several[0].check.site.hazard.ag
+    if len(ag) < len(_STATES):
         return _(
             "The return period of the capacity is not given: the hazard of the site is one for all limit states, and a"
             " line through return periods needs that of each."
         )
-    if np.any(np.diff(site.ag) <= 0.0):
+    if np.any(np.diff(ag) <= 0.0):
         return _(
             "The return period of the capacity is not given: the accelerations of the limit states do not increase from"
             " SLD to SLC."
@@ -273,103 +336,38 @@ def _differences(document: Document) -> list[Block]:
 def run(document: Document) -> list[Block]:
     """Chapter 16."""
     blocks: list[Block] = [Heading(document.text(_("General information on the calculation")))]
-    for title, one in _runs(document):
-        found = [warning(document.language, each) for each in one.warnings]
+    for title, one in runs_of(document):
         blocks.append(Heading(title, 2))
-        head = document.text(_("Warnings on the calculation: "))
-        if not found:
+        warnings, remarks = notes_of(document, one)
+        if not warnings:
             blocks.append(document.say(_("No warnings on the calculation.")))
-        blocks += [Note("plain", (head, text, ".")) for text in found]
+        for head, several in (
+            (_("Warnings on the calculation: "), warnings),
+            (_("Remarks on the check: "), remarks),
+        ):
+            blocks += [Note("plain", (document.text(head), text, ".")) for text in several]
         if one.work:
             blocks.append(
                 document.say(
-                    _("{histories} histories, {steps} steps of integration, {impacts} impacts located."),
+                    _("Histories: {histories}; steps of integration: {steps}; impacts located: {impacts}."),
                     **{name: whole(one.work.get(name, 0)) for name in ("histories", "steps", "impacts")},
                 )
             )
     return blocks
 
 
-def _runs(document: Document) -> list[tuple[str, RunFile]]:
+def notes_of(document: Document, one: RunFile) -> tuple[list[str], list[str]]:
+    """Warnings on the calculation of a run and remarks on its checks, each once."""
+    remarks = [note for _name, each in document.each() if each.results.run is one for note in each.check.notes]
+    first, second = (
+        list(dict.fromkeys(warning(document.language, note) for note in several)) for several in (one.warnings, remarks)
+    )
+    return first, second
+
+
+def runs_of(document: Document) -> list[tuple[str, RunFile]]:
     """The runs of the document, each once, and what they are called."""
     found: dict[int, tuple[list[str], RunFile]] = {}
     for name, one in document.each():
         found.setdefault(id(one.results), ([], one.results.run))[0].append(name)
     return [(", ".join(names), one) for names, one in found.values()]
-
-
-def annexes(document: Document) -> list[Block]:
-    """What belongs to the calculation and not into the report."""
-    blocks: list[Block] = [Annexes(document.text(_("Annexes")))]
-    for title, one in _runs(document):
-        text = case_text(one.settings)
-        if text:
-            blocks += [Heading(document.text(_("Data of the calculation: {wall}"), wall=title), 2), Listing(text)]
-    listed: list[tuple[str, RunFile, Mapping[str, tuple[float, float]]]] = []
-    for title, one in _runs(document):
-        if one.inputs:
-            blocks.append(Heading(document.text(_("Files and checksums: {wall}"), wall=title), 2))
-            blocks.append(_files(document, one))
-        if one.records:
-            blocks.append(Heading(document.text(_("Records: {wall}"), wall=title), 2))
-            factors = _factors(document, one)
-            same = next((name for name, other, its in listed if (other.records, its) == (one.records, factors)), None)
-            if same is not None:
-                blocks.append(document.say(_("The records, and the range of their factors, are those of {wall}."),
-                                           wall=same))  # fmt: skip
-                continue
-            listed.append((title, one, factors))
-            blocks.append(_records(document, one, factors))
-    return blocks
-
-
-def _files(document: Document, one: RunFile) -> CaptionedTable:
-    """Files of a run."""
-    columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("file")): [str(each["path"]) for each in one.inputs],
-        document.text(_("bytes")): [NONE if each["bytes"] is None else whole(each["bytes"]) for each in one.inputs],
-        "CRC-32": [str(each["crc32"]) for each in one.inputs],
-    }
-    return CaptionedTable(Table.of(columns), document.text(_("Files that the results are of.")))
-
-
-def _factors(document: Document, one: RunFile) -> Mapping[str, tuple[float, float]]:
-    """Least and greatest factor of each record, of one wall."""
-    stripes = next((each.results.stripes for each in document.subjects.several if each.results.run is one), None)
-    if stripes is None:
-        return {}
-    found: dict[str, tuple[float, float]] = {}
-    for name, low, high in zip(
-        stripes.record_names, np.nanmin(stripes.scale, axis=0), np.nanmax(stripes.scale, axis=0), strict=True
-    ):
-        least, most = found.get(name, (math.inf, -math.inf))
-        found[name] = (min(least, float(low)), max(most, float(high)))
-    return found
-
-
-def _stated(text: str) -> Piece:
-    """What a header states of a record: a number has the decimal mark of the language."""
-    return Numeral(text) if _DECIMAL.fullmatch(text) else text
-
-
-def _records(document: Document, one: RunFile, factors: Mapping[str, tuple[float, float]]) -> CaptionedTable:
-    """Records of a run."""
-    heads = {
-        "event": document.text(_("event")),
-        "date": document.text(_("date")),
-        "magnitude": document.text(_("magnitude")),
-        "station": document.text(_("station")),
-        "component": document.text(_("component")),
-    }
-    none = document.text(_("not given"))
-    columns: dict[Piece, Sequence[Piece]] = {document.text(_("record")): [each["name"] for each in one.records]}
-    for name in ("event", *RECORD_FACTS):
-        columns[heads[name]] = [_stated(each.get(name) or none) for each in one.records]
-    if factors:
-        ends = [factors.get(each["name"], (math.nan, math.nan)) for each in one.records]
-        columns[document.text(_("factor from"))] = [number(low) for low, _high in ends]
-        columns[document.text(_("to"))] = [number(high) for _low, high in ends]
-    words = list(heads.values())
-    return CaptionedTable(
-        Table.of(columns, words), document.text(_("Records, and the range of their factors of scale."))
-    )

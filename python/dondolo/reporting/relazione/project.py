@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from dondolo._base.files import read_text
+from dondolo._fortran.library import check_characters
 from dondolo.errors import InputError
 
 # Words of the title page and of the parameters of design
@@ -21,6 +23,7 @@ TEXTS = (
     "purpose",
     "tests",
     "mechanism",
+    "inward_rotation",
     "load_analysis",
     "combinations",
     "analysis_reason",
@@ -58,7 +61,7 @@ def read_project(path: str | os.PathLike[str] | None) -> Project:
     Raises
     ------
     InputError
-        Not TOML; a group, a name or a type that it may not have.
+        Not TOML; a group, a name or a type that it may not have; control characters and marks of direction.
     """
     if path is None:
         return Project()
@@ -74,11 +77,18 @@ def read_project(path: str | os.PathLike[str] | None) -> Project:
             if name not in allowed[group]:
                 known = ", ".join(allowed[group])
                 raise InputError(f"{os.fspath(path)}: [{group}] {name}: must be one of {known}")
-            is_number = isinstance(value, int | float) and not isinstance(value, bool)
-            if name in NUMBERS and not is_number:
-                raise InputError(f"{os.fspath(path)}: [{group}] {name}: must be a number")
-            if name not in NUMBERS and not isinstance(value, str):
-                raise InputError(f"{os.fspath(path)}: [{group}] {name}: must be a string in quotes")
+            where = f"{os.fspath(path)}: [{group}] {name}"
+            if name in NUMBERS:
+                if (
+                    isinstance(value, bool)
+                    or not isinstance(value, int | float)
+                    or not abs(value) <= sys.float_info.max
+                ):
+                    raise InputError(f"{where}: must be a number")
+            elif not isinstance(value, str):
+                raise InputError(f"{where}: must be a string in quotes")
+            else:
+                check_characters(where, value)
     given, texts = content.get("project", {}), content.get("texts", {})
     return Project(
         {name: given[name].strip() for name in WORDS if given.get(name, "").strip()},

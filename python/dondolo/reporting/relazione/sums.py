@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from dondolo._fortran.checks import CalculationItem
 from dondolo._fortran.walls import WALL_ABSENT
+from dondolo.checks.ntc import CodeCheck
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.walls.parts import Tie, parts_of
 
@@ -82,12 +84,50 @@ class Ratios(NamedTuple):
         return self.activation > self.displacement
 
 
-def ratios_of(one: Subject, state: str) -> Ratios:
-    """The two ratios of a nonlinear check."""
+def ratios_of(one: Subject, state: str, method: str = "nonlinear") -> Ratios:
+    """The two ratios of a nonlinear check: with all ties, or of the curve without some, method 'untied'."""
     check = one.check
-    d, demand = (check.value("nonlinear", state, name) for name in ("displacement", "demand"))
-    peak = check.value("site", state, "floor_pga" if one.is_on_floor else "pga")
-    return Ratios(d / demand, check.value("mechanism", state, "a_0") / (one.wall.gravity * peak))
+    d, demand = (check.value(method, state, name) for name in ("displacement", "demand"))
+    start = check.value("mechanism" if method == "nonlinear" else method, state, "a_0")
+    return Ratios(d / demand, start / (one.wall.gravity * starting(one, state)))
+
+
+def starting(one: Subject, state: str) -> float:
+    """Acceleration that starts the mechanism [g]: the peak, of a free element that at its period; NaN if unknown."""
+    check = one.check
+    row = check._row("nonlinear", state, "floor_t0")
+    if row is not None:
+        return row.value
+    if is_free(check):
+        return math.nan
+    return check.value("site", state, "floor_pga" if one.is_on_floor else "pga")
+
+
+def is_free(check: CodeCheck) -> bool:
+    """Whether the wall is a free element."""
+    row = check._row("mechanism", "", "free_element")
+    return row is not None and row.value == 1.0
+
+
+def taken_of(one: Subject, state: str) -> str:
+    """The method whose rows the ratio of a nonlinear check is of: 'untied' where it does not count some ties."""
+    return "untied" if without_of(one, state) else "nonlinear"
+
+
+def without_of(one: Subject, state: str) -> str:
+    """The ties that the ratio of a nonlinear check does not count, such as 'tie 1'; '' if it counts all."""
+    less, tied = (one.check._row("nonlinear", state, name) for name in ("less_zeta", "tied_zeta"))
+    return less.item if less is not None and tied is not None and less.value > tied.value else ""
+
+
+def ties_left_out(one: Subject, name: str) -> frozenset[str]:
+    """The items of ties that a curve does not count, by its name 'tie 1', 'ties 1, 3', or 'ties (12)' for the first."""
+    found = re.findall(r"\d+", name)
+    if "(" not in name:
+        return frozenset(f"tie {place}" for place in found)
+    ties = parts_of(one.wall, "ties")
+    order = sorted(range(len(ties)), key=lambda place: of_tie(ties[place], "strain") * ties[place].length)
+    return frozenset(f"tie {place + 1}" for place in order[: int(found[0])])
 
 
 class Turning(NamedTuple):

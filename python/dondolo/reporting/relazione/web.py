@@ -32,6 +32,7 @@ def page(blocks: Sequence[Block], document: Document, mark: str, *, formulas: bo
             lang=document.language.code,
             title=next(block.text for block in blocks if isinstance(block, Heading)),
             generator=mark,
+            author=document.project.words.get("designer", ""),
             formulas=formulas,
             blocks=[(type(block).__name__, _shown(block)) for block in numbered(blocks, document)],
         )
@@ -62,5 +63,5 @@ def _shown(block: Block) -> Any:
         return {"source": drawn.source, "alt": drawn.alt, "caption": block.caption}
     if isinstance(block, Formula):
         line = tuple(part for side in block.sides for part in (" = ", *linear(side)))
-        return {"sides": block.sides, "line": line[1:]}
+        return {"sides": block.sides, "line": line[1:], "place": block.place}
     return block

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.arguments import argument_error
-from dondolo._base.files import read_bytes
 from dondolo._fortran.files import whole_file
 from dondolo.errors import DondoloError
 from dondolo.figures.layout import lay_out
@@ -21,44 +20,54 @@ from dondolo.reporting.blocks import (
     Facts,
     Field,
     Formula,
-    Fraction,
     Heading,
     Listing,
     Note,
     Paragraph,
     Picture,
-    Root,
+    Stamp,
 )
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.template import open_template
 from dondolo.reporting.relazione.web import numbered
-from dondolo.reporting.relazione.word_fields import add_contents, add_number
+from dondolo.reporting.relazione.word_fields import Entry, add_bookmark, add_contents, add_number
+from dondolo.reporting.relazione.word_formulas import formula_of
+from dondolo.reporting.relazione.word_pages import set_pages, set_properties
 
 _DOTS_PER_INCH = 300
-# Of figures [cm], of what is between the margins [cm], and of cells [points]
-_WIDTH, _HEIGHT, _TEXT, _SMALL, _SMALLER = 15.5, 9.0, 16.6, 8.5, 7.0
+# Of figures [cm], of what is between the margins [cm], and of small letters [points]
+_WIDTH, _HEIGHT, _TEXT, _SMALL = 15.5, 6.6, 16.6, 8.5
 # Characters of a column: of the longest cell no more than these count
 _LONGEST = 34
-# Margins of a cell, and width of a wide font's bold letter over its size [cm]
-_MARGINS, _LETTER = 0.42, 0.0245
-# Columns of a table that takes small letters
-_WIDE = 7
+# Margins of a cell, and size of a point [cm]
+_MARGINS, _POINT = 0.42, 2.54 / 72
+# Widths of bold letters over their size, narrow and wide ones, capitals and all others
+_NARROW, _BROAD = "fijlrt.,:;'|()[]/- *", "mwMW%@"
+# Columns of a table that takes small letters; sizes of letters [points], of which a table takes the first with room
+_WIDE, _SIZES = 6, (8.5, 7.0, 6.5, 6.0, 5.5)
+# Height of the frame for a stamp [cm], and levels of headings in the contents
+_STAMP, _LISTED = 3.5, 2
+# Words longer than this are parted after these marks, where names of files and records are
+_PARTED, _MARKS = 12, re.compile(r"(?<=[_/\N{EN DASH}])")
+# Where lines may end; at blanks that hold together they may not
+_BLANKS = re.compile(r"[ \t\n]+")
 _LANGUAGES = {"it": "it-IT", "en": "en-GB"}
 _TABLE = "Dondolo Table"
 
 
 def write_word(
     target: Path, blocks: Sequence[Block], document: Document, mark: str, template: str | os.PathLike[str] | None
-) -> None:
-    """Write blocks as a file of Word, which appears whole or not at all.
+) -> list[str]:
+    """Write blocks as a file of Word, which appears whole or not at all; gives what was left out of the template.
 
     Raises
     ------
     DondoloError
         python-docx is not installed; the file cannot be written.
     InputError
-        The template is no file of Word.
+        The template is no file of Word, or too large.
     """
     try:
         import docx
@@ -66,48 +75,24 @@ def write_word(
         raise DondoloError(
             "python-docx is not installed: pip install 'dondolo[documents]', or write the report as HTML or PDF"
         ) from None
+    title = next(block.text for block in blocks if isinstance(block, Heading))
     if template is None:
         file = docx.Document()
-        _set_page(file)
+        set_pages(file, title, document)
+        left_out: list[str] = []
     else:
-        try:
-            file = docx.Document(io.BytesIO(read_bytes(template)))
-        except (ValueError, KeyError, zipfile.BadZipFile) as error:
-            raise argument_error(
-                "out_of_range", "template", f" = {os.fspath(template)!r}: is not a file of Word: {error}"
-            ) from None
+        file, left_out = open_template(template)
     _Writer(file, document).write(blocks)
-    file.core_properties.comments = mark
-    file.core_properties.author = document.project.words.get("designer", "")
+    set_properties(file, title, document, mark)
+    # Packed in memory: zipfile would leave a file half open that a full disk has no room for.
+    packed = io.BytesIO()
+    file.save(packed)
+    with zipfile.ZipFile(packed, "a") as archive:
+        # Word drops it when it saves the file, which is the office's own from then on.
+        archive.comment = mark.encode()
     with whole_file(target) as part:
-        file.save(str(part))
-        with zipfile.ZipFile(part, "a") as archive:
-            # Word drops it when it saves the file, which is the office's own from then on.
-            archive.comment = mark.encode()
-
-
-def _set_page(file: Any) -> None:
-    """A4, and letters that are on every machine."""
-    from docx.oxml.ns import qn
-    from docx.shared import Cm, Pt, RGBColor
-
-    section = file.sections[0]
-    section.page_width, section.page_height = Cm(21.0), Cm(29.7)
-    section.left_margin = section.right_margin = Cm(2.2)
-    section.top_margin = section.bottom_margin = Cm(2.0)
-    sizes = {"Normal": 10.5, "Title": 18, "Heading 1": 13, "Heading 2": 11.5, "Caption": 9}
-    for name, size in sizes.items():
-        style = file.styles[name]
-        style.font.name, style.font.size = "Arial", Pt(size)
-        style.font.color.rgb = RGBColor(0, 0, 0)
-        fonts = style.element.get_or_add_rPr().get_or_add_rFonts()
-        for kind in ("w:asciiTheme", "w:hAnsiTheme", "w:eastAsiaTheme", "w:cstheme"):
-            fonts.attrib.pop(qn(kind), None)
-        fonts.set(qn("w:hAnsi"), "Arial")
-    file.styles["Normal"].paragraph_format.space_after = Pt(5)
-    paragraph = section.footer.paragraphs[0]
-    paragraph.alignment = 1
-    add_number(paragraph, "PAGE", "1")
+        part.write_bytes(packed.getvalue())
+    return left_out
 
 
 class _Writer:
@@ -115,7 +100,10 @@ class _Writer:
 
     def __init__(self, file: Any, document: Document) -> None:
         self._file, self._document = file, document
-        self._styles = {style.name for style in file.styles}
+        # Bookmarks of the headings that are in the contents
+        self._marks: dict[int, str] = {}
+        # Of a template a style of letters may have the name of one of paragraphs.
+        self._styles = {style.name for style in file.styles if str(style.type).startswith(("PARAGRAPH", "TABLE"))}
 
     def write(self, blocks: Sequence[Block]) -> None:
         """All blocks, in their order."""
@@ -129,26 +117,40 @@ class _Writer:
             normal.append(language)
         language.set(qn("w:val"), _LANGUAGES[self._document.language.code])
         shown = numbered(blocks, self._document)
-        chapters = [block for block in shown if isinstance(block, Heading) and block.level == 1]
+        self._marks = {
+            id(block): f"_Toc{place:06}"
+            for place, block in enumerate(shown, 1)
+            if isinstance(block, Annexes) or (isinstance(block, Heading) and 0 < block.level <= _LISTED)
+        }
+        first = next((block for block in shown if id(block) in self._marks), None)
         for block in shown:
-            if chapters and block is chapters[0]:
-                self._contents([chapter.text for chapter in chapters])
+            if block is first:
+                self._contents(shown)
             self._write(block)
 
-    def _contents(self, chapters: Sequence[str]) -> None:
-        """The table of contents, on a page of its own before the first chapter."""
-        self._file.add_page_break()
+    def _contents(self, shown: Sequence[Block]) -> None:
+        """The table of contents, after what the title page has and before the first chapter."""
         paragraph = self._file.add_paragraph()
         self._run(paragraph, self._document.text(_("Contents")), bold=True)
-        add_contents(self._file, chapters)
+        entries = [
+            Entry(block.text, block.level if isinstance(block, Heading) else 1, self._marks[id(block)])
+            for block in shown
+            if isinstance(block, Heading | Annexes) and id(block) in self._marks
+        ]
+        add_contents(self._file, entries, width=_TEXT)
         self._file.add_page_break()
 
     def _write(self, block: Block) -> None:
         if isinstance(block, Heading):
-            self._paragraph("Title" if block.level == 0 else f"Heading {block.level}", block.text)
+            heading = self._paragraph("Title" if block.level == 0 else f"Heading {block.level}", block.text)
+            if id(block) in self._marks:
+                add_bookmark(heading, self._marks[id(block)])
         elif isinstance(block, Annexes):
-            self._file.add_page_break()
-            self._paragraph("Title", block.text)
+            heading = self._paragraph("Heading 1", block.text)
+            heading.paragraph_format.page_break_before = True
+            add_bookmark(heading, self._marks[id(block)])
+        elif isinstance(block, Stamp):
+            self._stamp(block)
         elif isinstance(block, Paragraph):
             self._paragraph("Normal", block.pieces)
         elif isinstance(block, Note):
@@ -241,11 +243,27 @@ class _Writer:
         from docx.shared import Cm
 
         table = self._new_table(len(block.pairs), 2)
+        table.autofit = False
+        for column, width in zip(table.columns, (5.0, 11.5), strict=True):
+            column.width = Cm(width)
         for row, (name, value) in zip(table.rows, block.pairs, strict=True):
             for cell, piece, width in zip(row.cells, (name, value), (5.0, 11.5), strict=True):
                 cell.width = Cm(width)
                 self._put(_tight(cell.paragraphs[0]), piece, size=9.5)
         self._space()
+
+    def _stamp(self, block: Stamp) -> None:
+        """A frame on the right, with room for a stamp and a signature."""
+        from docx.shared import Cm
+
+        self._space()
+        table = self._new_table(1, 1)
+        table.autofit = False
+        table.alignment = 2
+        table.rows[0].height = Cm(_STAMP)
+        cell = table.cell(0, 0)
+        cell.width = table.columns[0].width = Cm(7.0)
+        self._put(_tight(cell.paragraphs[0]), block.text, size=_SMALL)
 
     def _space(self) -> None:
         """Room below a table, which has no margin of its own."""
@@ -265,12 +283,12 @@ class _Writer:
         caption = self._caption(block.caption, self._document.text(_("Table")))
         caption.paragraph_format.keep_with_next = True
         table = self._new_table(1 + len(rows), len(shown.columns))
-        size = _SMALLER if len(shown.columns) > _WIDE else _SMALL
         header = OxmlElement("w:tblHeader")
         header.set(qn("w:val"), "true")
         table.rows[0]._tr.get_or_add_trPr().append(header)
         heads = tuple(column.head for column in shown.columns)
-        widths = [Cm(width) for width in self._widths((heads, *rows), size)]
+        size, measures = self._widths((heads, *rows))
+        widths = [Cm(width) for width in measures]
         for column, width in zip(table.columns, widths, strict=True):
             column.width = width
         # The cells of python-docx are looked up from the first on: by rows they are found in one go.
@@ -283,22 +301,27 @@ class _Writer:
                 paragraph = _tight(cell.paragraphs[0])
                 # A short table stays on one page, and its caption with it.
                 paragraph.paragraph_format.keep_with_next = shown.is_short and place < len(rows)
-                self._put(paragraph, piece, size=size, **({"bold": True} if strong else {}))
+                self._put(paragraph, _breakable(piece), size=size, **({"bold": True} if strong else {}))
                 if not column.is_text:
                     paragraph.alignment = WD_ALIGN_PARAGRAPH.RIGHT
         self._space()
 
-    def _widths(self, rows: Sequence[tuple[Any, ...]], size: float) -> list[float]:
-        """Widths of the columns of a table [cm]: no word is parted where there is room, long cells get more."""
+    def _widths(self, rows: Sequence[tuple[Any, ...]]) -> tuple[float, list[float]]:
+        """Size of letters of a table and widths of its columns [cm]: no word is parted, long cells get more."""
         texts = [[self._document.language.plain(piece) for piece in column] for column in zip(*rows, strict=True)]
-        words = [max(len(word) for text in column for word in text.split() or [""]) for column in texts]
+        words = [max(breadth(word) for text in column for word in parts_of_text(text) or [""]) for column in texts]
         longest = [min(_LONGEST, max(map(len, column[1:]), default=0)) for column in texts]
         # Every column has room for its longest word, and the rest goes to those with long cells.
-        needs = [_MARGINS + _LETTER * size * word for word in words]
+        sizes = _SIZES[1:] if len(texts) > _WIDE else _SIZES
+        needs: list[float] = []
+        for size in sizes:
+            needs = [_MARGINS + _POINT * size * word for word in words]
+            if sum(needs) <= _TEXT:
+                break
         rest = max(0.0, _TEXT - sum(needs))
-        wanted = [max(0.5, 0.5 * long - word) for word, long in zip(words, longest, strict=True)]
+        wanted = [max(0.05, 0.28 * long - word) for word, long in zip(words, longest, strict=True)]
         widths = [need + rest * want / sum(wanted) for need, want in zip(needs, wanted, strict=True)]
-        return [_TEXT * width / sum(widths) for width in widths]
+        return size, [_TEXT * width / sum(widths) for width in widths]
 
     def _picture(self, block: Picture) -> None:
         import matplotlib.pyplot as plt
@@ -323,55 +346,7 @@ class _Writer:
         self._caption(block.caption, self._document.text(_("Figure")))
 
     def _formula(self, block: Formula) -> None:
-        from docx.oxml import OxmlElement
-
-        paragraph = self._file.add_paragraph()
-        math = OxmlElement("m:oMathPara")
-        inner = OxmlElement("m:oMath")
-        for place, side in enumerate(block.sides):
-            if place:
-                _math_text(inner, " = ")
-            self._math(inner, side)
-        math.append(inner)
-        paragraph._p.append(math)
-
-    def _math(self, parent: Any, part: Any) -> None:
-        """A part of a formula in Office's own notation."""
-        if isinstance(part, tuple):
-            for one in part:
-                self._math(parent, one)
-        elif isinstance(part, Fraction):
-            made = _child(parent, "m:f")
-            self._math(_child(made, "m:num"), part.top)
-            self._math(_child(made, "m:den"), part.bottom)
-        elif isinstance(part, Root):
-            made = _child(parent, "m:rad")
-            properties = _child(made, "m:radPr")
-            _value(_child(properties, "m:degHide"), "1")
-            _child(made, "m:deg")
-            self._math(_child(made, "m:e"), part.inside)
-        elif isinstance(part, Symbol):
-            kind = {(True, True): "m:sSubSup", (True, False): "m:sSub", (False, True): "m:sSup"}
-            name = kind.get((bool(part.index), bool(part.mark)))
-            if name is None:
-                _math_text(parent, part.letter)
-                return
-            made = _child(parent, name)
-            _math_text(_child(made, "m:e"), part.letter)
-            if part.index:
-                _math_text(_child(made, "m:sub"), self._document.text(part.index), upright=True)
-            if part.mark:
-                _math_text(_child(made, "m:sup"), part.mark, upright=True)
-        elif isinstance(part, Numeral):
-            _math_text(parent, self._document.language.decimal(part.text), upright=True)
-            if part.power:
-                made = _child(parent, "m:sSup")
-                _math_text(_child(made, "m:e"), "·10")
-                _math_text(_child(made, "m:sup"), part.power)
-            if part.unit:
-                _math_text(parent, part.unit, upright=True)
-        else:
-            _math_text(parent, part.replace(" · ", "\N{THIN SPACE}·\N{THIN SPACE}"), upright=True)
+        _tight(self._file.add_paragraph())._p.append(formula_of(block, self._document))
 
     def _listing(self, block: Listing) -> None:
         from docx.shared import Pt
@@ -380,6 +355,26 @@ class _Writer:
             paragraph = _tight(self._file.add_paragraph())
             run = paragraph.add_run(line)
             run.font.name, run.font.size = "Courier New", Pt(7.5)
+
+
+def parts_of_text(text: str) -> list[str]:
+    """What of a text stays on one line: its words, and of long names the parts between their marks."""
+    return [part for word in _BLANKS.split(text) for part in (_MARKS.split(word) if len(word) > _PARTED else [word])]
+
+
+def breadth(word: str) -> float:
+    """Width of a word in bold letters over their size."""
+    return sum(0.4 if one in _NARROW else 0.9 if one in _BROAD else 0.74 if one.isupper() else 0.62 for one in word)
+
+
+def _breakable(piece: Any) -> Any:
+    """A cell whose long names may go on in the next line after their marks."""
+    if isinstance(piece, tuple):
+        return tuple(map(_breakable, piece))
+    if not isinstance(piece, str):
+        return piece
+    words = piece.split(" ")
+    return " ".join("\N{ZERO WIDTH SPACE}".join(_MARKS.split(one)) if len(one) > _PARTED else one for one in words)
 
 
 def _tight(paragraph: Any) -> Any:
@@ -392,34 +387,12 @@ def _tight(paragraph: Any) -> Any:
 
 def _border(paragraph: Any) -> None:
     """A line on the left of a paragraph that is set apart."""
+    from docx.oxml import OxmlElement
     from docx.oxml.ns import qn
 
-    sides = _child(paragraph._p.get_or_add_pPr(), "w:pBdr")
-    left = _child(sides, "w:left")
+    sides = OxmlElement("w:pBdr")
+    left = OxmlElement("w:left")
+    sides.append(left)
     for name, value in (("val", "single"), ("sz", "24"), ("space", "6"), ("color", "666666")):
         left.set(qn(f"w:{name}"), value)
-
-
-def _child(parent: Any, name: str) -> Any:
-    from docx.oxml import OxmlElement
-
-    made = OxmlElement(name)
-    parent.append(made)
-    return made
-
-
-def _value(element: Any, value: str) -> None:
-    from docx.oxml.ns import qn
-
-    element.set(qn("m:val"), value)
-
-
-def _math_text(parent: Any, text: str, *, upright: bool = False) -> None:
-    """Characters of a formula."""
-    run = _child(parent, "m:r")
-    if upright:
-        # Text, not operators: LibreOffice takes a star for a product that lacks a factor.
-        _child(_child(run, "m:rPr"), "m:nor")
-    made = _child(run, "m:t")
-    made.text = text
-    made.set("{http://www.w3.org/XML/1998/namespace}space", "preserve")
+    paragraph._p.get_or_add_pPr().insert_element_before(sides, "w:shd", "w:tabs", "w:spacing", "w:ind", "w:jc")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.files import as_file
+from dondolo._fortran.library import warn_of_notes
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._storage import tables
 from dondolo.errors import silent
@@ -20,6 +21,7 @@ def calculation_report(
     lang: str | None = None,
     project: str | os.PathLike[str] | None = None,
     template: str | os.PathLike[str] | None = None,
+    mechanisms: bool = False,
 ) -> tuple[str, ...]:
     """Write the calculation report (relazione di calcolo) of checks by NTC 2018: Word, HTML or PDF.
 
@@ -27,7 +29,8 @@ def calculation_report(
     ----------
     results : Results, or sequence of Results
         Of cases with a group &check, from `read_results` or `run_case`: a wall as it stands, then its designs; or the
-        designs of a case, or one facade.
+        designs of a case, or one facade. A wall and its designs have the same mechanism, height, building, confidence
+        factor and ultimate state; thickness, loads, thrusts and ties may differ.
     path : path
         The file, ``*.docx``, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. Word needs python-docx, PDF
         Chromium or WeasyPrint. An earlier report that dondolo wrote is replaced, any other file is not.
@@ -37,7 +40,11 @@ def calculation_report(
         TOML file with what the engineer states of the project: groups ``[project]`` and ``[texts]``
         (docs/relazione.md).
     template : path, optional
-        A Word file with the styles, header and footer of the office, for ``*.docx``.
+        A Word file or template with the styles, header and footer of the office, for ``*.docx``. Macros, links,
+        embedded files, and fields that look into other files do not come along.
+    mechanisms : bool
+        Whether the results are several mechanisms of one building, with one site, confidence factor and ultimate state:
+        none is called a design of another, and the least safety index is that of the report.
 
     Returns
     -------
@@ -51,6 +58,11 @@ def calculation_report(
         Results without a check or of a population; an unknown name in the project; another suffix.
     DondoloError
         A program that the format needs is missing; the file cannot be written.
+
+    Warns
+    -----
+    DondoloWarning
+        What of a template did not come along.
 
     Examples
     --------
@@ -96,18 +108,21 @@ def calculation_report(
     if not found:
         raise argument_error("not_given", "results", ": must be at least one")
     language = Language(lang)
-    document = Document(language, read_project(project), subjects_of(found))
+    document = Document(language, read_project(project), subjects_of(found, mechanisms=mechanisms))
     check_replaced(target, "report")
     mark = derived_mark("report", found[0].run.run)
+    left_out: list[str] = []
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
         blocks = [block for chapter in CHAPTERS for block in chapter(document)]
         if suffix == ".docx":
             from dondolo.reporting.relazione.word import write_word
 
-            write_word(target, blocks, document, mark, template)
+            left_out = write_word(target, blocks, document, mark, template)
         elif suffix == ".pdf":
             write_pdf(target, page(blocks, document, mark, formulas=sets_formulas()), mark)
         else:
             tables.write_lines(target, [page(blocks, document, mark, formulas=True).rstrip("\n")])
+    if left_out:
+        warn_of_notes([f"{os.fspath(template or '')}: left out of the document: {', '.join(left_out)}"])
     return tuple(dict.fromkeys(field.key for field in fields_of(blocks)))

@@ -11,7 +11,9 @@ const FIELDS = {
   tie_plate_width: [10, 80, 1, 100, "cm", 0], tie_plate_height: [10, 80, 1, 100, "cm", 0], tie_plate_diameter: [10, 80, 1, 100, "cm", 0], tie_plate_thickness: [5, 50, 1, 1e3, "mm", 0], tie_anchor_force: [1, 60, 0.5, 1e-3, "kN/m", 1],
   masonry_compression: [0.5, 6, 0.1, 1e-6, "MPa", 1], masonry_shear: [0.01, 0.2, 0.005, 1e-6, "MPa", 3], masonry_tension: [0.01, 0.3, 0.005, 1e-6, "MPa", 3],
   period: [0.05, 1.5, 0.01, 1, "s", 2], damping: [1, 20, 0.5, 100, "%", 1], storeys: [1, 8, 1, 1, "", 0], level: [0, 25, 0.25, 1, "m", 2], level_top: [0, 25, 0.25, 1, "m", 2], building_height: [2, 30, 0.25, 1, "m", 2],
-  ag: [0.02, 0.45, 0.005, 1, "g", 3], f0: [2.2, 3.2, 0.01, 1, "", 2], tc_star: [0.15, 0.6, 0.01, 1, "s", 2], behaviour: [1, 2, 0.05, 1, "", 2], knowledge_factor: [1, 1.35, 0.01, 1, "", 2],
+  ag: [0.02, 0.45, 0.005, 1, "g", 3], f0: [2.2, 3.2, 0.01, 1, "", 2], tc_star: [0.15, 0.6, 0.01, 1, "s", 2], behaviour: [1, 2, 0.05, 1, "", 2], knowledge_factor: [1, 1.35, 0.01, 1, "", 2], friction: [0.2, 1, 0.05, 1, "", 2],
+  building_period: [0.05, 3, 0.01, 1, "s", 2], building_damping: [1, 30, 0.5, 100, "%", 1],
+  latitude: [36, 47.5, 0.0001, 1, "°", 4], longitude: [6.5, 18.6, 0.0001, 1, "°", 4], nominal_life: [10, 100, 5, 1, "", 0],
 };
 // Parts of a wall: what the names of their lists begin with, and what a new one has
 const PARTS = {
@@ -22,13 +24,19 @@ const PARTS = {
 };
 const WALL = ["height", "thickness", "density", "hinge", "overburden", "overburden_inertia", "eccentricity", "compressive_strength"];
 const BUILDING = ["period", "damping", "storeys", "level", "level_top", "building_height"];
-const SITE = ["ag", "f0", "tc_star", "soil", "topography", "knowledge_factor", "behaviour"];
+// Circolare 7/2019, Table C8.5.I: E of masonry, least and greatest [MPa]; proposed is the range from its mean to half of it
+const MASONRY = [["irregular_stone", 690, 1050], ["rough_stone", 1020, 1440], ["split_stone", 1500, 1980], ["irregular_soft", 900, 1260], ["regular_soft", 1200, 1620], ["squared_stone", 2400, 3300], ["solid_bricks", 1200, 1800], ["perforated_bricks", 3500, 5600]];
+// What gives the hazard of the site: its values, or its place
+const VALUES = { ag: [0.2], f0: [2.5], tc_star: [0.35] }, PLACE = { latitude: 42.3498, longitude: 13.3999, nominal_life: 50 };
+const SITE = [...Object.keys(VALUES), ...Object.keys(PLACE), "use_class", "soil", "topography", "knowledge_factor", "behaviour", "ultimate_state", "friction"];
+// What a pushover analysis gives of the building for each limit state
+const STATES = ["SLD", "SLV", "SLC"], DAMAGED = ["building_period", "building_damping"];
 const KINDS = {
   one_sided: '<path d="M4 27h22M7 27V6h4v21M15 27 19 7l5 1-4 19z"/>',
   free_standing: '<path d="M4 27h22M13 27V8h5v19M8 10a9 9 0 0 0-3 5m17-5a9 9 0 0 1 3 5"/>',
   two_block: '<path d="M4 27h22M4 4h22M13 27l5-11-5-12m-4 23 5-11-5-12M9 27h4M9 4h4"/>',
 };
-const kept = {};
+const kept = {}, keptSite = { values: VALUES, place: PLACE };
 
 const wall = () => state.settings.wall;
 const isPart = (name, word) => name === word || name.startsWith(word + "_");
@@ -50,6 +58,7 @@ export function expand() {
     for (const name of lists(word)) { const values = [].concat(wall()[name]); wall()[name] = values.length === count ? values : Array(count).fill(values[0]); }
   }
   for (const group of ["building", "check"]) for (const [name, value] of Object.entries(state.settings[group] || {})) if (state.properties[group][name]?.kind === "list" && !Array.isArray(value)) state.settings[group][name] = [value];
+  for (const name of DAMAGED) { const values = state.settings.check?.[name]; if (values?.length === 1) state.settings.check[name] = Array(STATES.length).fill(values[0]); }
 }
 
 export const inWords = (unit) => (unit === "year" ? t(unit) : unit);
@@ -141,9 +150,29 @@ function changeKind(kind) {
   kept[old.mechanism] = { ...old };
   if (!("section_height" in next)) { next.height = heightOf(); next.thickness = thicknessOf(); }
   for (const name of ["density", "name"]) if (name in old) next[name] = old[name]; else delete next[name];
-  if (kind === "two_block" && !("hinge" in next)) next.hinge = 0.6;
   state.settings.wall = next; state.fan = null;
   again();
+}
+// Young's modulus of a free element, by its masonry
+function modulus() {
+  const w = wall(), id = `f${serial++}`, range = ([, low, high]) => [0.25e6 * (low + high), 0.5e6 * (low + high)];
+  const now = MASONRY.find((one) => String(range(one)) === String(w.young_modulus))?.[0] ?? ("young_modulus" in w ? "own_modulus" : "no_modulus");
+  const words = ["no_modulus", ...("young_modulus" in w && now === "own_modulus" ? ["own_modulus"] : []), ...MASONRY.map(([name]) => name)];
+  const select = make("select", { id, title: tip("wall", "young_modulus"), onchange: () => {
+    const found = MASONRY.find(([name]) => name === select.value);
+    if (found) w.young_modulus = range(found); else if (select.value === "no_modulus") delete w.young_modulus;
+    again();
+  } }, ...words.map((word) => make("option", { value: word, selected: word === now }, t(word))));
+  return make("div", { class: "row one", "data-name": "wall.masonry" }, make("label", { for: id, title: tip("wall", "young_modulus") }, t("free_modulus")), select);
+}
+// Period and damping of the building in each limit state: those of the worst state unless they are given
+function damagedBuilding(shown) {
+  const { building, check } = state.settings, has = DAMAGED.some((name) => name in check);
+  if (!building && !has) return [];
+  const first = Math.max(...[].concat(building?.period ?? 0.3)), damping = [].concat(building?.damping ?? 0.05)[0];
+  const rows = !has ? [make("p", { class: "hint" }, t("damaged_hint"))] : STATES.map((name, place) => make("div", { class: "part" }, make("div", { class: "head" }, t("building_at", { state: name })), ...DAMAGED.filter((each) => each in check).map((each) => row("check", each, place))));
+  for (const name of DAMAGED) shown.add(`check.${name}`);
+  return [...rows, make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { if (has) for (const name of DAMAGED) delete check[name]; else Object.assign(check, { building_period: Array(3).fill(first), building_damping: Array(3).fill(damping) }); state.fan = null; again(); } }, t(has ? "remove_damaged" : "add_damaged")))];
 }
 function group(name, isOpen, count, ...rows) {
   return make("details", { class: "group", open: isOpen, "data-group": name }, make("summary", {}, t(name), count ? make("span", { class: "count" }, ` (${count})`) : null), ...rows);
@@ -159,10 +188,10 @@ export function draw() {
     const icon = make("span"); icon.innerHTML = `<svg viewBox="0 0 30 30" aria-hidden="true">${KINDS[kind]}</svg>`;
     return make("label", {}, input, icon.firstChild, t(kind));
   }));
-  const defaults = { density: 1800, hinge: 0.5, overburden: 0, eccentricity: 0 };
+  const defaults = { density: 1800, overburden: 0, eccentricity: 0 };
   for (const [name, value] of Object.entries(defaults)) if (!(name in w) && state.properties.wall[name].owners.includes(w.mechanism)) w[name] = value;
   if (w.mechanism === "two_block" && w.overburden > 0 && !("overburden_inertia" in w)) w.overburden_inertia = 0;
-  const parts = [make("fieldset", {}, make("legend", {}, t("wall")), kinds, ...rows("wall", WALL))];
+  const parts = [make("fieldset", {}, make("legend", {}, t("wall")), kinds, ...rows("wall", WALL), ...(state.properties.wall.young_modulus.owners.includes(w.mechanism) ? [modulus()] : []))];
   for (const [kind, { word, owners }] of Object.entries(PARTS)) {
     if (!owners.includes(w.mechanism)) continue;
     const count = partCount(word), names = lists(word), body = [];
@@ -178,9 +207,15 @@ export function draw() {
   const hasBuilding = "building" in state.settings, top = heightOf();
   parts.push(group("building", opened.building ?? hasBuilding, 0, ...(hasBuilding ? [...rows("building", BUILDING), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { delete state.settings.building; again(); } }, t("remove")))] : [make("p", { class: "hint" }, t("building_hint")), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { opened.building = true; state.settings.building = { period: [0.3], damping: [0.05], storeys: 2, level: 0, building_height: Math.max(6, top) }; again(); } }, t("add_building")))])));
   const site = "check" in state.settings;
-  if (site) for (const [name, value] of Object.entries({ soil: "A", topography: "T1", knowledge_factor: 1.35, behaviour: 2 })) state.settings.check[name] ??= value;
-  const siteRows = site ? rows("check", SITE).map((element) => element) : [];
-  parts.push(group("site", opened.site ?? site, 0, ...siteRows, make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { if (site) delete state.settings.check; else state.settings.check = { ag: [0.2], f0: [2.5], tc_star: [0.35], soil: "B" }; opened.site = true; again(); } }, t(site ? "remove" : "add_site")))));
+  if (site) for (const [name, value] of Object.entries({ use_class: "II", soil: "A", topography: "T1", knowledge_factor: 1.35, behaviour: 2, ultimate_state: "SLV" })) state.settings.check[name] ??= value;
+  const siteRows = site ? rows("check", SITE) : [], byPlace = site && "latitude" in state.settings.check;
+  const other = make("button", { class: "small", type: "button", onclick: () => {
+    const { ag, f0, tc_star, latitude, longitude, nominal_life, reference_life, exceedance, ...rest } = state.settings.check;
+    keptSite[byPlace ? "place" : "values"] = Object.fromEntries(Object.entries(byPlace ? { latitude, longitude, nominal_life } : { ag, f0, tc_star, reference_life, exceedance }).filter(([, value]) => value !== undefined));
+    state.settings.check = { ...(byPlace ? keptSite.values : keptSite.place), ...rest }; state.fan = null;
+    again();
+  } }, t(byPlace ? "by_values" : "by_place"));
+  parts.push(group("site", opened.site ?? site, 0, ...siteRows, ...(site ? damagedBuilding(shown) : []), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { if (site) delete state.settings.check; else state.settings.check = { ...VALUES, soil: "B" }; opened.site = true; again(); } }, t(site ? "remove" : "add_site")), site ? other : "")));
   parts.push(analysis(shown));
   parts.push(others(shown));
   form.replaceChildren(...parts);
@@ -205,11 +240,12 @@ function others(shown) {
   for (const [of, table] of Object.entries(state.properties)) for (const [name, { owners }] of Object.entries(table)) {
     const isHere = state.settings[of] && name in state.settings[of];
     if (isHere && !shown.has(`${of}.${name}`)) rest.push([of, name]);
-    if (!isHere && !shown.has(`${of}.${name}`) && of !== "job" && of in { wall: 1, solver: 1, ...("building" in state.settings && { building: 1 }), ...("check" in state.settings && { check: 1 }) } && (!owners.length || owners.includes(state.settings.wall.mechanism) || owners.includes("stripes"))) may.push([of, name]);
+    if (!isHere && !shown.has(`${of}.${name}`) && of !== "job" && of in { wall: 1, solver: 1, records: 1, ...("building" in state.settings && { building: 1 }), ...("check" in state.settings && { check: 1 }) } && (!owners.length || owners.includes(state.settings.wall.mechanism) || owners.includes("stripes"))) may.push([of, name]);
   }
   const select = make("select", { "aria-label": t("add_property"), onchange: () => {
     const [of, name] = select.value.split("."), { kind, choices, low, default: usual } = state.properties[of][name], plain = usual.replaceAll("'", "");
     const number = Number.isFinite(Number(plain)) && plain !== "" ? Number(plain) : FIELDS[name] ? clean((FIELDS[name][0] + FIELDS[name][1]) / 2 / FIELDS[name][3]) : Math.max(1, low > 0 ? low : 1);
+    if (name === "top_displacement") delete state.settings.building.period;
     (state.settings[of] ??= {})[name] = choices.length ? choices[0] : kind === "logical" ? true : kind === "text" ? plain || "wall" : kind === "list" ? Array(Math.max(1, ...Object.values(PARTS).filter(({ word }) => isPart(name, word)).map(({ word }) => partCount(word)))).fill(number) : number;
     opened.others = true; again();
   } }, make("option", { value: "" }, t("add_property")), ...may.map(([of, name]) => make("option", { value: `${of}.${name}`, title: tip(of, name) }, `${labelOf(name)}${of === "wall" ? "" : ` (&${of})`}`)));

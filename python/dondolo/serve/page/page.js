@@ -26,7 +26,7 @@ function words() {
   at("title").value = job.title || ""; at("title").placeholder = t("untitled"); at("title").setAttribute("aria-label", t("case_title"));
   document.title = `${job.title || t("untitled")} · dondolo`;
   at("wall-title").textContent = t("motion"); at("case-title").textContent = t("case_file");
-  const file = make("input", { type: "file", accept: ".nml,text/plain", onchange: () => { if (file.files[0]) file.files[0].text().then(open); file.value = ""; } });
+  const file = make("input", { type: "file", accept: ".nml,text/plain", onchange: () => { if (file.files[0]) file.files[0].arrayBuffer().then((bytes) => open(decoded(bytes))); file.value = ""; } });
   const document_ = (kind, name, ending) => make("button", { type: "button", "data-kind": kind, onclick: () => makeDocument(kind, `${t(name)}.${ending}`) }, ending === "docx" ? "Word" : t(kind));
   at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => isWhole() && save(state.answer.text, `${slug()}.nml`) }, t("save")), ...begun.documents.map((kind) => document_(kind, kind === "report" ? "file_report" : "file_relazione", kind === "relazione_word" ? "docx" : "html")), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
   at("actions").querySelector("[data-kind=relazione_word]")?.setAttribute("aria-label", `${t("relazione")}, Word`);
@@ -40,6 +40,11 @@ function save(content, name) {
   const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type: "text/plain" }));
   make("a", { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10e3);
+}
+// UTF-8, or UTF-16 with a byte order mark, as every reader of cases takes it
+function decoded(bytes) {
+  const mark = new Uint8Array(bytes.slice(0, 2)).join();
+  return new TextDecoder({ "255,254": "utf-16le", "254,255": "utf-16be" }[mark] || "utf-8").decode(bytes);
 }
 async function open(text) {
   try {
@@ -70,8 +75,8 @@ function refuse(error, isAside = false) {
   at("chart").replaceChildren(); at("wall").replaceChildren(); stopFilm(); at("film").hidden = true;
 }
 
-// How the library's verdict on a check looks: what is neither satisfied nor failed has no colour.
-const lookOf = (verdict) => ({ verified: "good", "not verified": "bad" })[verdict] ?? "";
+// How the library's verdict on a check looks: what is information has no colour, nor what is neither satisfied nor failed, nor what rigid blocks satisfy where the strip bends.
+const lookOf = ([, , verdict, required], isBent) => required && ({ verified: isBent ? "" : "good", "not verified": "bad" })[verdict] || "";
 
 function number(key, value, unit, more, kind = "") {
   return make("div", { class: kind }, make("dt", {}, t(key)), make("dd", {}, value, unit ? make("small", {}, ` ${unit}`) : ""), more ? make("dd", { class: "more" }, more) : "");
@@ -91,8 +96,8 @@ function show() {
   const marks = [];
   if (a.check?.capacities && a.im === "pga") {
     marks.push({ x: a.check.pga, label: t("level_site", { x: num(a.check.pga, 3) }), kind: "" });
-    const verdicts = new Map(a.check.verdicts.map(([method, limit, verdict]) => [method + limit, verdict]));
-    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: lookOf(verdicts.get(method + limit)) });
+    const verdicts = new Map(a.check.verdicts.map((one) => [one[0] + one[1], one]));
+    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: lookOf(verdicts.get(method + limit), a.check.is_bent) });
   }
   at("chart").classList.remove("old"); at("film").hidden = false;
   const b = state.bAnswer && state.bAnswer.im === a.im ? state.bAnswer : null;
@@ -120,13 +125,18 @@ function under(a, unit) {
 function check(found) {
   if (!found) { at("check").replaceChildren(); return; }
   if (found.refused) { at("check").replaceChildren(make("p", { class: "hint" }, sentenceOf(found.refused))); return; }
-  const capacities = new Map(found.capacities.map(([method, limit, x]) => [`${method} ${limit}`, x]));
-  const rows = found.verdicts.map(([method, limit, verdict]) => {
-    const key = `${method} ${limit}`, look = lookOf(verdict);
-    return make("tr", {}, make("th", { scope: "row" }, `${t(method)} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: look }, `${{ good: "✓ ", bad: "✗ " }[look] ?? ""}${t(`verdict.${verdict}`)}`));
+  const lines = new Map(found.lines.map((one) => [`${one.method} ${one.limit_state}`, one]));
+  const amount = (x, unit) => (x === null ? "–" : unit === "m" ? `${num(100 * x, 2)} cm` : `${num(x, 3)} m/s²`);
+  const chance = (p) => (p === null ? "–" : probability(p[0]) + (p[1] === null || probability(p[2]) === probability(p[0]) ? "" : ` (${probability(p[1])}–${probability(p[2])})`));
+  const hasCurve = found.lines.some((one) => one.at_site !== null);
+  const rows = found.verdicts.map((one) => {
+    const [method, limit, verdict, required] = one, line = lines.get(`${method} ${limit}`), look = lookOf(one, found.is_bent);
+    const numbers = [amount(line.capacity, line.unit), amount(line.demand, line.unit), line.ratio === null ? "–" : num(line.ratio, 2), line.allowed_pga === null ? "–" : num(line.allowed_pga, 3)];
+    return make("tr", {}, make("th", { scope: "row" }, `${t(method)} ${limit}`), ...numbers.map((x) => make("td", { class: "n" }, x)), make("td", { class: look }, `${{ good: "✓ ", bad: "✗ " }[look] ?? ""}${t(`verdict.${verdict}`)}${found.is_bent && verdict === "verified" ? t("if_rigid") : ""}${required ? "" : t("information")}`), ...(hasCurve ? [line.at_allowed, line.at_site].map((p) => make("td", { class: "n" }, chance(p))) : []));
   });
+  const heads = ["method", "withstands", "asked", "over", "capacity_head", "outcome", ...(hasCurve ? ["chance_allowed", "chance_site"] : [])].map((key) => make("th", { scope: "col", class: ["method", "outcome"].includes(key) ? "" : "n" }, t(key)));
   const failed = rows.some((row) => row.querySelector(".bad")) && found.probability < 0.01;
-  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint" }, note.replace(/^alpha_0/, "α₀"))));
+  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))), ...(found.hazard ?? []).map(([name, ag, f0, tc, years]) => make("p", { class: "hint" }, t("hazard", { state: name, ag: num(ag, 3), f0: num(f0, 3), tc: num(tc, 3), years: num(years, 0) }))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint" }, note.replace(/^alpha_0/, "α₀"))));
 }
 
 // The motion under one record

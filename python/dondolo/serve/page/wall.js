@@ -4,7 +4,7 @@ import { num, safe, t } from "./words.js";
 // SVG of the wall; blocks: where it is now, at rest if left out
 export function drawing(wall, blocks) {
   if (!wall) return `<p class="hint">${t("no_shape")}</p>`;
-  const h = wall.height, reach = Math.max(2.2 * wall.thickness, 0.34 * h), x0 = -reach, x1 = wall.thickness + 1.15 * reach, scale = 300 / (1.22 * h), w = (x1 - x0) * scale, tall = 1.22 * h * scale;
+  const h = wall.height, reach = Math.max(2.2 * wall.thickness, 0.34 * h, ...wall.rest.flat().map(([x]) => -1.15 * x)), x0 = -reach, x1 = wall.thickness + 1.15 * reach, scale = 300 / (1.22 * h), w = (x1 - x0) * scale, tall = 1.22 * h * scale;
   const X = (x) => +((x - x0) * scale).toFixed(1), Y = (y) => +((1.12 * h - y) * scale).toFixed(1);
   const shape = (points) => points.map(([x, y]) => `${X(x)},${Y(y)}`).join(" ");
   const upright = (x, y, text) => `<text class="small halo" transform="rotate(-90 ${x.toFixed(1)} ${y.toFixed(1)})" x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle">${safe(text)}</text>`;

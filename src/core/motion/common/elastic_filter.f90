@@ -1,0 +1,359 @@
+!> The motion of a closed wall under a whole accelerogram, computed once for all factors on it (docs/theory.md, section 7).
+!>
+!> Until its joints open a wall of one period is one linear filter X(t) of the accelerogram, times the factor on it. Of each block
+!> of samples the filter keeps where it begins and a bound of the amplitude (X^2 + (X'/w)^2)^1/2 within. After an opening the
+!> motion is the same and a free swing, which decays: blocks where both together stay below q_y are jumped over, since nothing
+!> happens there that is not linear.
+module dondolo_motion_elastic_filter
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_elastic_flow, only : at_turn, bent_type, elastic_flow_type, longest_angle, new_elastic_flow
+   use dondolo_record, only : record_type
+   use dondolo_wall_elastic_joint, only : elastic_joint_type
+   implicit none
+   private
+
+   public :: elastic_filter_type, new_elastic_filter
+
+   !> Sample intervals of a block
+   integer, parameter :: length = 32
+
+   !> The filter of an accelerogram
+   type :: elastic_filter_type
+      private
+      !> Joints of the wall
+      type(elastic_joint_type) :: joint
+      !> From a sample to the next: of the state, and of the accelerations at both
+      real(wp) :: by_state(2, 2), by_ground(2, 2)
+      !> State at the first sample of each block, and at the last sample of the record
+      type(bent_type), allocatable :: start(:)
+      !> Bound of the amplitude in each block [rad]
+      real(wp), allocatable :: reach(:)
+      !> Most that a unit of ground acceleration adds to the amplitude from a sample to the next [rad per m/s2]
+      real(wp) :: push = 0.0_wp
+      !> Part of a free swing that is left after a block
+      real(wp) :: fading = 1.0_wp
+      !> Sample interval [s]; what the motion differs by from the cubic through both samples at most, per unit of the amplitude and
+      !> of the ground acceleration [1, rad per m/s2], and the same of its rate [1/s, rad/s per m/s2]
+      real(wp) :: dt = 0.0_wp, bulge(2) = 0.0_wp, bulge_of_rate(2) = 0.0_wp
+      !> Largest |X| [rad] and its time [s], free motion after the record included
+      real(wp), public :: peak = 0.0_wp, time_of_peak = 0.0_wp
+   contains
+      !> State at a sample
+      procedure :: at_sample
+      !> Whether a block begins at a sample
+      procedure :: begins_block
+      !> Jump over what is linear
+      procedure :: jump
+      !> Go on as long as nothing can happen
+      procedure :: skip
+      !> The state at the next sample, and whether nothing can happen before it
+      procedure :: look_ahead
+      !> State at a later sample of a motion that stays linear
+      procedure :: linear_state
+   end type elastic_filter_type
+
+contains
+
+   !> The filter of an accelerogram
+   pure function new_elastic_filter(joint, record) result(filter)
+      type(elastic_joint_type), intent(in) :: joint
+      type(record_type), intent(in) :: record
+      type(elastic_filter_type) :: filter
+
+      type(elastic_flow_type) :: flow
+      type(bent_type) :: state(0:length)
+      real(wp) :: amplitude(length), ground(length), x(length), v(length)
+      integer :: first, last, block, i, n
+
+      last = size(record%acceleration) - 1
+      filter%joint = joint
+      call set_step(filter, record%dt)
+      filter%push = joint%lever*record%dt/joint%frequency
+      filter%fading = exp(-joint%damping*joint%frequency*record%dt*real(length, wp))
+      allocate (filter%start((last - 1)/length + 2), filter%reach((last - 1)/length + 1))
+      n = 0
+      do block = 1, size(filter%reach)
+         first = (block - 1)*length
+         state(0) = state(n)
+         n = min(length, last - first)
+         associate (a => record%acceleration(first + 1:first + n + 1))
+            do i = 1, n
+               state(i) = filter_step(filter, state(i - 1), a(i), a(i + 1))
+            end do
+            filter%start(block) = state(0)
+            x(:n) = joint%frequency*state(:n - 1)%x
+            v(:n) = state(:n - 1)%v
+            ground(:n) = max(abs(a(:n)), abs(a(2:)))
+            filter%reach(block) = sqrt(maxval(x(:n)**2 + v(:n)**2))/joint%frequency + filter%push*maxval(ground(:n))
+            if (.not. filter%reach(block) > filter%peak) cycle
+            amplitude(:n) = sqrt(x(:n)**2 + v(:n)**2)/joint%frequency + filter%push*ground(:n)
+            do i = 1, n
+               if (.not. amplitude(i) > filter%peak) cycle
+               flow = new_elastic_flow(joint, state(i - 1), a(i), (a(i + 1) - a(i))/record%dt)
+               call look_for_peak(filter, flow, real(first + i - 1, wp)*record%dt, record%dt, state(i - 1))
+            end do
+         end associate
+      end do
+      filter%start(size(filter%start)) = state(n)
+      ! The swing after the record is largest in its first turn.
+      flow = new_elastic_flow(joint, state(n), 0.0_wp, 0.0_wp)
+      call look_for_peak(filter, flow, record%duration(), joint%period, state(n))
+   end function new_elastic_filter
+
+   !> From a sample to the next: what a unit of each of the two states and of the two accelerations becomes
+   pure subroutine set_step(filter, dt)
+      type(elastic_filter_type), intent(inout) :: filter
+      !> Sample interval [s]
+      real(wp), intent(in) :: dt
+
+      type(bent_type) :: units(4)
+      real(wp) :: angle
+
+      associate (joint => filter%joint, rest => bent_type())
+         units(1) = moved(new_elastic_flow(joint, bent_type(1.0_wp, 0.0_wp), 0.0_wp, 0.0_wp))
+         units(2) = moved(new_elastic_flow(joint, bent_type(0.0_wp, 1.0_wp), 0.0_wp, 0.0_wp))
+         units(3) = moved(new_elastic_flow(joint, rest, 1.0_wp, -1.0_wp/dt))
+         units(4) = moved(new_elastic_flow(joint, rest, 0.0_wp, 1.0_wp/dt))
+         ! The fourth derivative is less than w^4 (2.1 a + 2 (1 + 1/w dt) L u/J w^2), with a the amplitude: the equation of motion,
+         ! derived twice, for the largest damping that there may be.
+         angle = joint%frequency*dt
+         filter%bulge = [2.1_wp, 2.0_wp*(1.0_wp + 1.0_wp/angle)*joint%lever/joint%frequency**2]*angle**4/384.0_wp
+         filter%bulge_of_rate = filter%bulge*(384.0_wp/72.0_wp)/dt
+      end associate
+      filter%dt = dt
+      filter%by_state = reshape([units(1)%x, units(1)%v, units(2)%x, units(2)%v], [2, 2])
+      filter%by_ground = reshape([units(3)%x, units(3)%v, units(4)%x, units(4)%v], [2, 2])
+
+   contains
+
+      !> The state after a sample interval
+      pure type(bent_type) function moved(flow)
+         type(elastic_flow_type), intent(in) :: flow
+
+         moved = flow%at(dt)
+      end function moved
+
+   end subroutine set_step
+
+   !> The state at the next sample
+   pure type(bent_type) function filter_step(filter, state, here, there) result(next)
+      type(elastic_filter_type), intent(in) :: filter
+      !> State at a sample
+      type(bent_type), intent(in) :: state
+      !> Ground acceleration at this sample and at the next [m/s2]
+      real(wp), intent(in) :: here, there
+
+      associate (m => filter%by_state, n => filter%by_ground)
+         next%x = (m(1, 1)*state%x + m(1, 2)*state%v) + (n(1, 1)*here + n(1, 2)*there)
+         next%v = (m(2, 1)*state%x + m(2, 2)*state%v) + (n(2, 1)*here + n(2, 2)*there)
+      end associate
+   end function filter_step
+
+   !> Look for a new peak in a motion
+   pure subroutine look_for_peak(filter, flow, begin, duration, state)
+      type(elastic_filter_type), intent(inout) :: filter
+      type(elastic_flow_type), intent(in) :: flow
+      !> Time of its begin, and how long it lasts [s]
+      real(wp), intent(in) :: begin, duration
+      !> State at its begin
+      type(bent_type), intent(in) :: state
+
+      type(bent_type) :: here, next
+      real(wp) :: step, turn
+      integer :: part, parts
+
+      parts = max(1, ceiling(filter%joint%frequency*duration/longest_angle))
+      step = duration/real(parts, wp)
+      here = state
+      do part = 1, parts
+         next = flow%at(step*real(part, wp))
+         if (here%v*next%v < 0.0_wp) then
+            turn = flow%time_of(at_turn, 0.0_wp, sign(1.0_wp, next%v), step*real(part - 1, wp), step*real(part, wp))
+            here = flow%at(turn)
+            if (abs(here%x) > filter%peak) then
+               filter%peak = abs(here%x)
+               filter%time_of_peak = begin + turn
+            end if
+         end if
+         here = next
+      end do
+   end subroutine look_for_peak
+
+   !> State at a sample, under the accelerogram as it is
+   pure type(bent_type) function at_sample(self, record, sample) result(state)
+      class(elastic_filter_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Number of the sample, from 1
+      integer, intent(in) :: sample
+
+      integer :: i, block
+
+      block = (sample - 1)/length + 1
+      if (sample == size(record%acceleration)) then
+         state = self%start(size(self%start))
+         return
+      end if
+      state = self%start(block)
+      do i = (block - 1)*length + 1, sample - 1
+         state = filter_step(self, state, record%acceleration(i), record%acceleration(i + 1))
+      end do
+   end function at_sample
+
+   !> Whether a block begins at a sample
+   elemental logical function begins_block(self, sample)
+      class(elastic_filter_type), intent(in) :: self
+      !> Number of the sample, from 1
+      integer, intent(in) :: sample
+
+      associate (of => self)
+      end associate
+      begins_block = modulo(sample - 1, length) == 0
+   end function begins_block
+
+   !> Jump over blocks in which the motion stays linear
+   pure subroutine jump(self, record, scale, sample, state)
+      class(elastic_filter_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> In: number of the sample, less than the last; out: that of the first which is not jumped over
+      integer, intent(inout) :: sample
+      !> State at the sample
+      type(bent_type), intent(inout) :: state
+
+      type(bent_type) :: swing
+      real(wp) :: bound, decay, damped
+      integer :: block, first, last
+
+      last = size(record%acceleration)
+      swing = swing_beside(self, record, scale, sample, state)
+      decay = self%joint%damping*self%joint%frequency
+      damped = self%joint%frequency*sqrt(1.0_wp - self%joint%damping**2)
+      bound = sqrt(1.0_wp + self%joint%damping)*hypot(swing%x, (swing%v + decay*swing%x)/damped)
+      first = sample
+      block = (sample - 1)/length + 1
+      do while (sample < last)
+         if (.not. abs(scale)*self%reach(block) + bound < self%joint%opening) exit
+         ! Of the first block, which may be a part of one, the swing is taken not to decay.
+         if (sample > first) bound = bound*self%fading
+         sample = min(block*length + 1, last)
+         block = block + 1
+      end do
+      if (sample > first) state = swung(self, record, scale, swing, first, sample)
+   end subroutine jump
+
+   !> Go on from sample to sample as long as nothing can happen that is not linear: over blocks, and within one by single steps
+   pure subroutine skip(self, record, scale, sample, state)
+      class(elastic_filter_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> In: number of the sample; out: that at whose beginning something may happen, or the last
+      integer, intent(inout) :: sample
+      !> State at the sample
+      type(bent_type), intent(inout) :: state
+
+      type(bent_type) :: next
+      logical :: is_quiet
+
+      do while (sample < size(record%acceleration))
+         if (modulo(sample - 1, length) == 0) then
+            call self%jump(record, scale, sample, state)
+            if (sample == size(record%acceleration)) exit
+         end if
+         do
+            call self%look_ahead(state, scale*record%acceleration(sample), scale*record%acceleration(sample + 1), next, is_quiet)
+            if (.not. is_quiet) return
+            state = next
+            sample = sample + 1
+            if (modulo(sample - 1, length) == 0 .or. sample == size(record%acceleration)) exit
+         end do
+      end do
+   end subroutine skip
+
+   !> The state at the next sample, unless something may happen before that is not linear: the joints open, or a passage of x = 0 is
+   !> faster than v_y
+   elemental subroutine look_ahead(self, state, here, there, next, is_quiet)
+      class(elastic_filter_type), intent(in) :: self
+      !> State at a sample
+      type(bent_type), intent(in) :: state
+      !> Ground acceleration at this sample and at the next [m/s2]
+      real(wp), intent(in) :: here, there
+      !> State at the next, if nothing can happen
+      type(bent_type), intent(out) :: next
+      logical, intent(out) :: is_quiet
+
+      real(wp) :: ground, room, square, amplitude, bulge, early, late, fastest
+
+      next = filter_step(self, state, here, there)
+      associate (w => self%joint%frequency)
+         ground = max(abs(here), abs(there))
+         room = self%joint%opening - self%push*ground
+         square = (w*state%x)**2 + state%v**2
+         is_quiet = room > 0.0_wp .and. square < (w*room)**2
+         if (is_quiet) return
+         ! The Bernstein coefficients of the cubic through both samples are x, early, late and the next x.
+         amplitude = sqrt(square)/w + self%push*ground
+         bulge = self%bulge(1)*amplitude + self%bulge(2)*ground
+         early = state%x + state%v*self%dt*(1.0_wp/3.0_wp)
+         late = next%x - next%v*self%dt*(1.0_wp/3.0_wp)
+         if (.not. max(max(abs(state%x), abs(early)), max(abs(late), abs(next%x))) + bulge < self%joint%opening) return
+         is_quiet = min(min(state%x, early), min(late, next%x)) > bulge .or. max(max(state%x, early), max(late, next%x)) < -bulge
+         if (is_quiet) return
+         fastest = max(max(abs(state%v), abs(next%v)), 3.0_wp*abs(late - early)/self%dt)
+         is_quiet = fastest + (self%bulge_of_rate(1)*amplitude + self%bulge_of_rate(2)*ground) < self%joint%speed
+      end associate
+   end subroutine look_ahead
+
+   !> State at a later sample of a motion that stays linear
+   pure type(bent_type) function linear_state(self, record, scale, first, state, sample) result(later)
+      class(elastic_filter_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Number of a sample, and the state there
+      integer, intent(in) :: first
+      type(bent_type), intent(in) :: state
+      !> Number of the later sample
+      integer, intent(in) :: sample
+
+      later = swung(self, record, scale, swing_beside(self, record, scale, first, state), first, sample)
+   end function linear_state
+
+   !> What the motion at a sample has beside that of the filter
+   pure type(bent_type) function swing_beside(self, record, scale, sample, state) result(swing)
+      class(elastic_filter_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Number of the sample, and the state there
+      integer, intent(in) :: sample
+      type(bent_type), intent(in) :: state
+
+      type(bent_type) :: forced
+
+      forced = self%at_sample(record, sample)
+      swing = bent_type(state%x - scale*forced%x, state%v - scale*forced%v)
+   end function swing_beside
+
+   !> State at a later sample of a motion that has a free swing beside that of the filter
+   pure type(bent_type) function swung(self, record, scale, swing, first, sample) result(state)
+      class(elastic_filter_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> The free swing at the first sample
+      type(bent_type), intent(in) :: swing
+      !> Numbers of the two samples
+      integer, intent(in) :: first, sample
+
+      type(elastic_flow_type) :: flow
+      type(bent_type) :: forced, left
+
+      flow = new_elastic_flow(self%joint, swing, 0.0_wp, 0.0_wp)
+      left = flow%at(real(sample - first, wp)*record%dt)
+      forced = self%at_sample(record, sample)
+      state = bent_type(scale*forced%x + left%x, scale*forced%v + left%v)
+   end function swung
+
+end module dondolo_motion_elastic_filter

@@ -1,0 +1,300 @@
+!> The rows of a chain: bodies, joints and what acts on it, as numbers.
+!>
+!> Depths are those of walls, from the outer face inwards: x = -depth. Angles are in degrees from outwards to upwards.
+module dondolo_wall_chain_input
+   use dondolo_base_error, only : not_given, not_together, out_of_range, problems_type, wrong_length
+   use dondolo_base_kinds, only : pi, wp
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_wall_chain, only : chain_action_type, chain_type, guide, is_guide, is_pin, pin
+   use dondolo_wall_chain_overlap, only : outline_type
+   use dondolo_wall_chain_part, only : chain_mass_type, point_mass, polygon, sector, together
+   implicit none
+   private
+
+   public :: read_chain, stands_between
+
+   !> Bodies that a chain can have
+   integer, parameter, public :: most_bodies = 8
+
+   !> Numbers of a row: body, part, kind, width, density, depth, height, and four that depend on the kind (none of a corner; mass
+   !> and inertia; radii and angles of a sector)
+   integer, parameter, public :: body_numbers = 11
+
+   !> Kinds of rows of bodies
+   integer, parameter, public :: is_corner = 0, is_mass = 1, is_sector = 2
+
+   !> Kind (2: pin, 1: guide), body, other, depth, height, angle, and depth and height of the point of the other
+   integer, parameter, public :: joint_numbers = 8
+
+   !> Body, depth, height, load, part of it lifted, part of it pushed, mass that is only pushed, thrust, its angle, 1 if something
+   !> else holds the load sideways
+   integer, parameter, public :: action_numbers = 10
+
+   !> Densities that masonry, and what is carried, can have [kg/m3]
+   real(wp), parameter :: least_density = 100.0_wp, most_density = 1.0e4_wp
+
+   !> Sides that the outline of a sector has on each of its arcs
+   integer, parameter :: arc_sides = 12
+
+contains
+
+   !> Read a chain
+   subroutine read_chain(chain, outlines, input, problems)
+      !> Its driver and gravity are known
+      type(chain_type), intent(inout) :: chain
+      type(outline_type), allocatable, intent(out) :: outlines(:)
+      class(settings_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+
+      integer :: equations
+
+      allocate (chain%bodies(0), chain%joints(0), chain%actions(0), outlines(0))
+      call check_size('body_table', body_numbers)
+      call check_size('joint_table', joint_numbers)
+      call check_size('action_table', action_numbers)
+      if (problems%count > 0) return
+      call read_bodies(chain, outlines, as_rows('body_table', body_numbers), problems)
+      if (problems%count > 0) return
+      if (chain%driver > size(chain%bodies)) call problems%note('driver = '//to_text(chain%driver)//': must be one of '// &
+         & to_text(size(chain%bodies))//' bodies', out_of_range, 'driver')
+      call read_joints(chain, as_rows('joint_table', joint_numbers), problems)
+      call read_actions(chain, as_rows('action_table', action_numbers), problems)
+      if (problems%count > 0) return
+      equations = sum(chain%joints%kind)
+      associate (n => size(chain%bodies))
+         if (equations < 3*n - 1) then
+            call problems%note('joints: '//to_text(n)//' bodies with '//to_text(equations)//' equations have '//to_text(3*n)// &
+               & ' - '//to_text(equations)//' = '//to_text(3*n - equations)//' degrees of freedom, must have 1: a pin (2) or a '// &
+               & 'guide (1) is missing', out_of_range, 'joints')
+         else if (equations > 3*n - 1) then
+            call problems%note('joints: '//to_text(n)//' bodies with '//to_text(equations)//' equations have '//to_text(3*n)// &
+               & ' - '//to_text(equations)//' = '//to_text(3*n - equations)//' degrees of freedom, must have 1: it is a '// &
+               & 'structure, not a mechanism', out_of_range, 'joints')
+         end if
+      end associate
+
+   contains
+
+      !> Check that a list is made of whole rows
+      subroutine check_size(name, numbers)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: numbers
+
+         if (modulo(size(input%list(name)), numbers) /= 0) call problems%note(name//': has '// &
+            & to_text(size(input%list(name)))//' values, must have rows of '//to_text(numbers), wrong_length, name)
+      end subroutine check_size
+
+      !> A list as rows
+      function as_rows(name, numbers) result(rows)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: numbers
+         real(wp), allocatable :: rows(:, :)
+
+         rows = reshape(input%list(name), [numbers, size(input%list(name))/numbers])
+      end function as_rows
+
+   end subroutine read_chain
+
+   !> Read the bodies: those of one number are one body, corners of one part one polygon
+   subroutine read_bodies(chain, outlines, rows, problems)
+      type(chain_type), intent(inout) :: chain
+      type(outline_type), allocatable, intent(inout) :: outlines(:)
+      real(wp), intent(in) :: rows(:, :)
+      type(problems_type), intent(inout) :: problems
+
+      type(chain_mass_type), allocatable :: parts(:)
+      type(outline_type) :: outline
+      integer :: body, first, last
+
+      do body = 1, nint(min(maxval(rows(1, :)), real(most_bodies + 1, wp)))
+         if (body > most_bodies .or. .not. any(nint(rows(1, :)) == body)) exit
+         parts = [chain_mass_type ::]
+         last = 0
+         do while (last < size(rows, 2))
+            first = last + 1
+            last = first
+            if (nint(rows(3, first)) == is_corner) then
+               do while (last < size(rows, 2))
+                  if (any(nint(rows(:3, last + 1)) /= nint(rows(:3, first)))) exit
+                  last = last + 1
+               end do
+            end if
+            if (nint(rows(1, first)) /= body) cycle
+            outline%body = body
+            call read_part(rows(:, first:last), parts, outline%corners, problems)
+            if (problems%count > 0) return
+            if (rows(4, first) > 0.0_wp .and. size(outline%corners) > 0) outlines = [outlines, outline]
+         end do
+         associate (whole => together(parts))
+            if (.not. (whole%mass > 0.0_wp .and. whole%inertia > 0.0_wp)) call problems%note('bodies: body '//to_text(body)// &
+               & ' has a mass of '//rounded(whole%mass)//' kg and an inertia of '//rounded(whole%inertia)//' kg m2, both must '// &
+               & 'be positive', out_of_range, 'bodies')
+            chain%bodies = [chain%bodies, whole]
+         end associate
+      end do
+      if (size(rows, 2) == 0) return
+      if (any(abs(rows(1, :) - anint(rows(1, :))) > 0.0_wp .or. rows(1, :) < 1.0_wp) .or. &
+         & maxval(rows(1, :)) > real(most_bodies, wp)) then
+         call problems%note('bodies: their numbers must be integers from 1 to '//to_text(most_bodies), out_of_range, 'bodies')
+      else if (size(chain%bodies) < nint(maxval(rows(1, :)))) then
+         call problems%note('bodies: body '//to_text(size(chain%bodies) + 1)//' has no rows, but body '// &
+            & to_text(nint(maxval(rows(1, :))))//' has', not_given, 'bodies')
+      end if
+   end subroutine read_bodies
+
+   !> Read a part
+   subroutine read_part(rows, parts, corners, problems)
+      !> Its row, or those of its corners
+      real(wp), intent(in) :: rows(:, :)
+      type(chain_mass_type), allocatable, intent(inout) :: parts(:)
+      !> Its outline; of size 0: it has none
+      real(wp), allocatable, intent(out) :: corners(:, :)
+      type(problems_type), intent(inout) :: problems
+
+      real(wp) :: angles(2)
+      integer :: i
+
+      associate (row => rows(:, 1), at => [-rows(6, 1), rows(7, 1)], density => rows(4, 1)*rows(5, 1))
+         allocate (corners(2, 0))
+         if (nint(row(3)) /= is_mass .and. (row(5) < least_density .or. row(5) > most_density)) then
+            call problems%note('bodies: a part of body '//to_text(nint(row(1)))//' has a density of '//rounded(row(5))// &
+               & ' kg/m3, must lie between '//rounded(least_density)//' and '//rounded(most_density)// &
+               & trim(merge(': is it in kN/m3? ', ': is it in N/m3?  ', row(5) < least_density)), out_of_range, 'bodies')
+            return
+         end if
+         select case (nint(row(3)))
+         case (is_mass)
+            parts = [parts, point_mass(row(8), at, row(9))]
+         case (is_sector)
+            angles = row(10:11)*pi/180.0_wp
+            if (.not. (row(8) >= 0.0_wp .and. row(9) > row(8) .and. abs(row(11) - row(10)) > 0.0_wp &
+               & .and. abs(row(11) - row(10)) <= 360.0_wp)) then
+               call problems%note('bodies: a sector of body '//to_text(nint(row(1)))//' has radii of '//rounded(row(8))//' and '// &
+                  & rounded(row(9))//' m and angles of '//rounded(row(10))//' and '//rounded(row(11))//' deg, the second must '// &
+                  & 'be another', out_of_range, 'bodies')
+               return
+            end if
+            parts = [parts, sector(at, row(8:9), angles, density)]
+            corners = reshape([(at + row(9)*direction(i), i=0, arc_sides), (at + row(8)*direction(i), i=arc_sides, 0, -1)], &
+               & [2, 2*arc_sides + 2])
+         case default
+            corners = rows(6:7, :)
+            corners(1, :) = -corners(1, :)
+            if (size(rows, 2) < 3) then
+               call problems%note('bodies: a part of body '//to_text(nint(row(1)))//' has '//to_text(size(rows, 2))// &
+                  & ' corners, must have 3 at least', wrong_length, 'bodies')
+               return
+            end if
+            parts = [parts, polygon(corners, density)]
+            if (abs(parts(size(parts))%mass) > 0.0_wp) return
+            call problems%note('bodies: a part of body '//to_text(nint(row(1)))//' has no area, width or density', out_of_range, &
+               & 'bodies')
+         end select
+      end associate
+
+   contains
+
+      !> Direction of a corner on an arc
+      pure function direction(i)
+         integer, intent(in) :: i
+         real(wp) :: direction(2)
+
+         associate (angle => angles(1) + (angles(2) - angles(1))*real(i, wp)/real(arc_sides, wp))
+            direction = [cos(angle), sin(angle)]
+         end associate
+      end function direction
+
+   end subroutine read_part
+
+   !> Read the joints
+   subroutine read_joints(chain, rows, problems)
+      type(chain_type), intent(inout) :: chain
+      real(wp), intent(in) :: rows(:, :)
+      type(problems_type), intent(inout) :: problems
+
+      integer :: i
+
+      do i = 1, size(rows, 2)
+         associate (row => rows(:, i), ends => nint(rows(2:3, i)), at => [-rows(4, i), rows(5, i)])
+            if (any(ends < 0) .or. any(ends > size(chain%bodies)) .or. ends(1) == ends(2)) then
+               call problems%note('joints: joint '//to_text(i)//' is between '//to_text(ends(1))//' and '//to_text(ends(2))// &
+                  & ', must be between two of '//to_text(size(chain%bodies))//' bodies, or one and 0, the ground', out_of_range, &
+                  & 'joints')
+            else if (nint(row(1)) == is_pin) then
+               chain%joints = [chain%joints, pin(ends(1), ends(2), at)]
+            else if (nint(row(1)) == is_guide) then
+               chain%joints = [chain%joints, guide(ends(1), ends(2), at, row(6)*pi/180.0_wp, [-row(7), row(8)])]
+            else
+               call problems%note('joints: joint '//to_text(i)//' is of kind '//rounded(row(1))//', must be 2 (pin) or 1 (guide)', &
+                  & out_of_range, 'joints')
+            end if
+         end associate
+      end do
+   end subroutine read_joints
+
+   !> Read the actions
+   subroutine read_actions(chain, rows, problems)
+      type(chain_type), intent(inout) :: chain
+      real(wp), intent(in) :: rows(:, :)
+      type(problems_type), intent(inout) :: problems
+
+      type(chain_action_type) :: action
+      integer :: i
+
+      do i = 1, size(rows, 2)
+         associate (row => rows(:, i))
+            if (nint(row(1)) < 1 .or. nint(row(1)) > size(chain%bodies)) then
+               call problems%note('actions: action '//to_text(i)//' is on body '//to_text(nint(row(1)))//', must be one of '// &
+                  & to_text(size(chain%bodies)), out_of_range, 'actions')
+            else if (any(row([4, 7, 8]) < 0.0_wp) .or. any(row(5:6) < 0.0_wp) .or. any(row(5:6) > 1.0_wp)) then
+               call problems%note('actions: action '//to_text(i)//' has a negative load, mass or thrust, or parts beyond 0 and 1', &
+                  & out_of_range, 'actions')
+            else if (count(row([4, 7, 8]) > 0.0_wp) /= 1) then
+               call problems%note('actions: action '//to_text(i)//' must be one of a load, a mass and a thrust', not_together, &
+                  & 'actions')
+            else
+               action = chain_action_type(body=nint(row(1)), at=[-row(2), row(3)], weight=row(4))
+               action%lifted = row(5)*row(4)/chain%gravity
+               action%pushed = row(6)*row(4)/chain%gravity + row(7)
+               action%thrust = row(8)*[cosine(row(9)), cosine(row(9) - 90.0_wp)]
+               action%is_held = nint(row(10)) == 1
+               chain%actions = [chain%actions, action]
+            end if
+         end associate
+      end do
+
+   contains
+
+      !> Cosine of degrees, exact at right angles: a horizontal thrust lifts nothing
+      pure real(wp) function cosine(angle)
+         real(wp), intent(in) :: angle
+
+         cosine = cos(angle*pi/180.0_wp)
+         if (.not. abs(modulo(angle, 180.0_wp) - 90.0_wp) > 0.0_wp) cosine = 0.0_wp
+      end function cosine
+
+   end subroutine read_actions
+
+   !> Do joints with the ground lie at two levels?
+   pure logical function stands_between(list)
+      !> Rows of the joints, one after the other
+      real(wp), intent(in) :: list(:)
+
+      real(wp) :: low, high
+      integer :: i
+
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do i = 0, size(list)/joint_numbers - 1
+         associate (row => list(joint_numbers*i + 1:joint_numbers*(i + 1)))
+            if (nint(row(2)) /= 0 .and. nint(row(3)) /= 0) cycle
+            low = min(low, row(5))
+            high = max(high, row(5))
+         end associate
+      end do
+      stands_between = high > low
+   end function stands_between
+
+end module dondolo_wall_chain_input

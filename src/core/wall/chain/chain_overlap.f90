@@ -1,0 +1,126 @@
+!> Overlaps of the polygons of a chain: bodies that lie in one another at rest, and hinges on the wrong side of a joint.
+!>
+!> Two convex polygons overlap in one, which is found by cutting the first at each side of the second (Sutherland and Hodgman 1974).
+module dondolo_wall_chain_overlap
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_chain, only : chain_type, motion_type, point_motion
+   implicit none
+   private
+
+   public :: outline_type, overlap_of_bodies
+
+   !> The outline of a part of a body
+   type :: outline_type
+      integer :: body = 0
+      !> Its corners at rest (x and y, corner) [m]
+      real(wp), allocatable :: corners(:, :)
+   end type outline_type
+
+contains
+
+   !> Area that the convex parts of two bodies share at a motion [m2]
+   pure real(wp) function overlap_of_bodies(chain, outlines, motion, body, other) result(area)
+      type(chain_type), intent(in) :: chain
+      !> Parts of masonry; openings are not among them
+      type(outline_type), intent(in) :: outlines(:)
+      type(motion_type), intent(in) :: motion
+      integer, intent(in) :: body, other
+
+      real(wp), allocatable :: one(:, :), two(:, :)
+      integer :: i, k
+
+      area = 0.0_wp
+      do i = 1, size(outlines)
+         if (outlines(i)%body /= body) cycle
+         call move_corners(chain, outlines(i), motion, one)
+         if (.not. is_convex(one)) cycle
+         do k = 1, size(outlines)
+            if (outlines(k)%body /= other) cycle
+            call move_corners(chain, outlines(k), motion, two)
+            if (is_convex(two)) area = area + shared_area(one, two)
+         end do
+      end do
+   end function overlap_of_bodies
+
+   !> Corners of an outline at a motion, anticlockwise
+   pure subroutine move_corners(chain, outline, motion, corners)
+      type(chain_type), intent(in) :: chain
+      type(outline_type), intent(in) :: outline
+      type(motion_type), intent(in) :: motion
+      real(wp), allocatable, intent(out) :: corners(:, :)
+
+      real(wp) :: rate(2), second(2)
+      integer :: i
+
+      corners = outline%corners
+      do i = 1, size(corners, 2)
+         call point_motion(chain, motion, outline%body, outline%corners(:, i), corners(:, i), rate, second)
+      end do
+      if (area_of(corners) < 0.0_wp) corners = corners(:, size(corners, 2):1:-1)
+   end subroutine move_corners
+
+   !> Area of a polygon, positive anticlockwise
+   pure real(wp) function area_of(corners)
+      real(wp), intent(in) :: corners(:, :)
+
+      integer :: i
+
+      area_of = 0.0_wp
+      do i = 2, size(corners, 2) - 1
+         area_of = area_of + 0.5_wp*turn(corners(:, 1), corners(:, i), corners(:, i + 1))
+      end do
+   end function area_of
+
+   !> Twice the area of a triangle, positive anticlockwise
+   pure real(wp) function turn(a, b, c)
+      real(wp), intent(in) :: a(2), b(2), c(2)
+
+      turn = (b(1) - a(1))*(c(2) - a(2)) - (b(2) - a(2))*(c(1) - a(1))
+   end function turn
+
+   !> Is an anticlockwise polygon convex?
+   pure logical function is_convex(corners)
+      real(wp), intent(in) :: corners(:, :)
+
+      integer :: i, n
+
+      n = size(corners, 2)
+      is_convex = all([(turn(corners(:, i), corners(:, modulo(i, n) + 1), corners(:, modulo(i + 1, n) + 1)) >= &
+         & -1.0e-12_wp*maxval(abs(corners))**2, i=1, n)])
+   end function is_convex
+
+   !> Area of the overlap of two convex anticlockwise polygons
+   pure real(wp) function shared_area(one, two)
+      real(wp), intent(in) :: one(:, :), two(:, :)
+
+      real(wp), allocatable :: left(:, :), cut(:, :)
+      real(wp) :: here, next
+      integer :: i, k, m, n
+
+      left = one
+      do i = 1, size(two, 2)
+         associate (a => two(:, i), b => two(:, modulo(i, size(two, 2)) + 1))
+            n = size(left, 2)
+            allocate (cut(2, 2*n))
+            m = 0
+            do k = 1, n
+               here = turn(a, b, left(:, k))
+               next = turn(a, b, left(:, modulo(k, n) + 1))
+               if (here >= 0.0_wp) then
+                  m = m + 1
+                  cut(:, m) = left(:, k)
+               end if
+               if (here*next < 0.0_wp) then
+                  m = m + 1
+                  cut(:, m) = left(:, k) + here/(here - next)*(left(:, modulo(k, n) + 1) - left(:, k))
+               end if
+            end do
+            left = cut(:, :m)
+            deallocate (cut)
+         end associate
+         if (size(left, 2) == 0) exit
+      end do
+      shared_area = area_of(left)
+   end function shared_area
+
+end module dondolo_wall_chain_overlap
