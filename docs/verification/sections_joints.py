@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from cases import ROOT, TABLES, motions, read_table
 from joints import Program, Strip
-from markdown import bullets, many, paragraph, small, table
+from markdown import bullets, paragraph, small, table
 from sections_accuracy import demand
 
 import dondolo as dd
@@ -35,7 +35,7 @@ class Pair:
     peak: np.ndarray  # of the program, over the capacity
     time: np.ndarray  # difference of the times of the peaks, s
     flags: int  # that differ
-    fast: np.ndarray  # never opened, but passed the middle faster than at the speed of the opening
+    fast: int  # histories that never opened, but passed the middle faster than at the speed of the opening
 
     @property
     def error(self):
@@ -55,9 +55,9 @@ def compare(program, strips, records, histories, solver=TIGHT, after=2.0):
     capacity = found.joints[[strip for strip, _, _ in histories], 0]
     own = np.array([one.edp for one in ran])
     fell = np.array([one.collapsed for one in ran])
+    fast = int(((found.openings == 0.0) & (found.passages > 0.0)).sum())
     peak = np.abs(found.peak) / capacity
     time = np.array([one.time_of_peak for one in ran]) - found.time
-    fast = (found.openings == 0.0) & (found.passages > 0.0)
     return Pair(own, peak, time, int((fell != found.collapsed).sum()), fast)
 
 
@@ -140,30 +140,21 @@ def random_walls(program, number):
     opened = sum(pair > strip.wall().opening_edp for pair, strip in zip(pairs[0].peak, strips, strict=True))
     fell = int((pairs[0].peak >= 1.0).sum())
     demand(all(pair.flags == 0 for pair in pairs), "all flags of random strips are those of the program")
-    fast = pairs[0].fast
-    errors = [pair.error[~fast] for pair in pairs]
+    errors = [pair.error for pair in pairs]
     demand(errors[0].max() < RANDOM, "peaks of random strips are those of the program to 1e-6")
     demand(errors[1].max() < USUAL, "those at the defaults to 1e-3")
-    excess = pairs[0].own[fast] / pairs[0].peak[fast] - 1.0
-    demand(fast.mean() < 0.1 and np.abs(excess).max(initial=0.0) < 0.02, "few are fast, and off by 2 % at most")
+    demand(pairs[0].fast > 0, "some lose energy and never open")
     quantiles = [[*np.quantile(error, (0.5, 0.99)), error.max()] for error in errors]
     rows = [
         [name, pair.flags, *map(small, three)]
         for name, pair, three in zip(("`rtol = 1e-12`", "defaults"), pairs, quantiles, strict=True)
     ]
     text = (
-        f"{number} random strips, each under a random motion of 20 to 120 samples: {opened} open, {fell} collapse. "
+        f"{number} random strips, each under a random motion of 20 to 120 samples: {opened} open, {fell} collapse, "
+        f"{pairs[0].fast} lose energy in passages and never open. "
         "Relative differences of the peaks:"
     )
-    lines = [*paragraph(text), *table(["", "flags that differ", "median", "99th percentile", "largest"], rows)]
-    if fast.any():
-        lines += paragraph(
-            f"The other {many(int(fast.sum()), 'history')} never open, but pass the middle faster "
-            "than v_y under the motion. There "
-            "dondolo takes the linear motion, without the loss of the rule: the EDP, which is below the opening, is "
-            f"off by up to {100.0 * np.abs(excess).max():.1f} %."
-        )
-    return lines
+    return [*paragraph(text), *table(["", "flags that differ", "median", "99th percentile", "largest"], rows)]
 
 
 def limits(program):

@@ -206,7 +206,7 @@ def heavy(mass, height=3.0, thickness=0.25):
         ),
         (lambda: heavy(1.35), [0.2], "mass_beside_size"),  # tonnes
         (lambda: heavy(13.5), [0.2], "mass_beside_size"),  # kilonewtons
-        (lambda: heavy(1.35e6), [0.2], "mass_beside_size"),  # grams
+        (lambda: heavy(6e4), [0.2], "mass_beside_size"),  # more than of steel
         (lambda: dd.OneSidedWall(3.0, 0.25), [1.0, 5.0], "levels_above_usual"),
     ],
 )
