@@ -66,7 +66,7 @@ contains
 
       type(elastic_flow_type) :: flow
       type(bent_type) :: state(0:length)
-      real(wp) :: amplitude(length), ground(length), x(length), v(length)
+      real(wp) :: ground(length), x(length), v(length)
       integer :: first, last, block, i, n
 
       last = size(record%acceleration) - 1
@@ -89,20 +89,43 @@ contains
             v(:n) = state(:n - 1)%v
             ground(:n) = max(abs(a(:n)), abs(a(2:)))
             filter%reach(block) = sqrt(maxval(x(:n)**2 + v(:n)**2))/joint%frequency + filter%push*maxval(ground(:n))
-            if (.not. filter%reach(block) > known(filter)) cycle
-            amplitude(:n) = sqrt(x(:n)**2 + v(:n)**2)/joint%frequency + filter%push*ground(:n)
-            do i = 1, n
-               if (.not. amplitude(i) > known(filter)) cycle
-               flow = new_elastic_flow(joint, state(i - 1), a(i), (a(i + 1) - a(i))/record%dt)
-               call look_for_largest(filter, flow, real(first + i - 1, wp)*record%dt, record%dt, state(i - 1))
-            end do
          end associate
       end do
       filter%start(size(filter%start)) = state(n)
+      ! The block that reaches farthest leaves little to look for in the others.
+      call look_in_block(filter, record, maxloc(filter%reach, 1))
+      do block = 1, size(filter%reach)
+         if (filter%reach(block) > known(filter)) call look_in_block(filter, record, block)
+      end do
       ! The swing after the record is largest in its first turn.
       flow = new_elastic_flow(joint, state(n), 0.0_wp, 0.0_wp)
       call look_for_largest(filter, flow, record%duration(), joint%period, state(n))
    end function new_elastic_filter
+
+   !> Look for the peak and the fastest passage in a block
+   pure subroutine look_in_block(filter, record, block)
+      type(elastic_filter_type), intent(inout) :: filter
+      type(record_type), intent(in) :: record
+      !> Its number
+      integer, intent(in) :: block
+
+      type(elastic_flow_type) :: flow
+      type(bent_type) :: state
+      real(wp) :: amplitude
+      integer :: sample
+
+      state = filter%start(block)
+      associate (a => record%acceleration, w => filter%joint%frequency)
+         do sample = (block - 1)*length + 1, min(block*length, size(a) - 1)
+            amplitude = sqrt((w*state%x)**2 + state%v**2)/w + filter%push*max(abs(a(sample)), abs(a(sample + 1)))
+            if (amplitude > known(filter)) then
+               flow = new_elastic_flow(filter%joint, state, a(sample), (a(sample + 1) - a(sample))/record%dt)
+               call look_for_largest(filter, flow, real(sample - 1, wp)*record%dt, record%dt, state)
+            end if
+            state = filter_step(filter, state, a(sample), a(sample + 1))
+         end do
+      end associate
+   end subroutine look_in_block
 
    !> Amplitude below which there is neither a new peak nor a faster passage [rad]
    pure real(wp) function known(filter)
