@@ -25,7 +25,8 @@ printf "[built-in options]\nfortran_link_args = ['-static', '-L%s']\n" "$librari
 ninja -C build-windows/meson
 rm -rf "$root" "$staged"
 meson install -C build-windows/meson --quiet --strip --no-rebuild --tags runtime,devel
-rm -r "$root/lib/pkgconfig"
+# The extension module has the tag of programs.
+rm -r "$root/lib/pkgconfig" "$root/lib/site-packages"
 meson install -C build-windows/meson --quiet --strip --no-rebuild --tags runtime,python-runtime --destdir "$staged"
 
 for program in "$root"/bin/* "$staged$root"/lib/site-packages/dondolo/_fortran/*.pyd; do

@@ -123,12 +123,12 @@ runs "report" -m dondolo report out/parapet
 check "report: a page" contains out/parapet_report.html '</html>'
 runs "figures" -m dondolo plot out/parapet
 check "figures: a picture" test -s out/parapet_fragility.png
-runs "relazione in HTML" -m dondolo relazione out/parapet -o "relazione è.html"
+runs "relazione in HTML" -m dondolo relazione out/facade -o "relazione è.html"
 check "relazione in HTML: a page" contains "relazione è.html" '</html>'
-runs "relazione in Word" -m dondolo relazione out/parapet -o "relazione è.docx"
+runs "relazione in Word" -m dondolo relazione out/facade -o "relazione è.docx"
 check "relazione in Word: a document" python3 -m zipfile -t "relazione è.docx"
 runs "workbook" -m dondolo xlsx out/parapet
-check "workbook" python3 -m zipfile -t out/parapet.xlsx
+check "workbook" python3 -m zipfile -t out/parapet_tables.xlsx
 # The executable calls the Python that is one folder up from Scripts.
 in_wine "$prefix/Scripts/dondolo.exe" report out/parapet -o rapporto.html
 check "report by the executable, not: $(tail -n 1 "$work/said")" test -s rapporto.html
