@@ -28,16 +28,16 @@ module dondolo_front_door
       & '    if (error.name or "").partition(".")[0] != "dondolo": raise'//new_line('a')// &
       & '    tag = "cp%d%d" % sys.version_info[:2]'//new_line('a')// &
       & '    end = tag + "-win_amd64" if sys.platform == "win32" else "*"'//new_line('a')// &
-      & '    print("dondolo: " + sys.argv[1] + "'//needs_package//', which is not in " + sys.prefix + ": install its '// &
-      & 'wheel, for Python 3.11 or later: \"" + sys.executable + "\" -m pip install '//wheel//'" + tag + "-" + end + ".whl", '// &
-      & 'file=sys.stderr)'//new_line('a')// &
+      & '    print("dondolo: " + sys.argv[1] + "'//needs_package//', which is not in " + sys.prefix + ": install '// &
+      & 'its wheel, for Python 3.11 or later: \"" + sys.executable + "\" -m pip install '//wheel//'" + tag + "-" + end + '// &
+      & '".whl", file=sys.stderr)'//new_line('a')// &
       & '    sys.exit(1)'//new_line('a')// &
       & 'sys.exit(main())'
 
 contains
 
-   !> Become Python: the one beside the executable, as in a virtual environment (on Windows also one folder up, as where Python itself
-   !> is installed), or else the one in PATH
+   !> Become Python: the one beside the executable, as in a virtual environment (on Windows also one folder up, as in Python's own
+   !> folder), or else the one in PATH
    subroutine hand_over(words, error)
       !> The command and its arguments
       type(lines_type), intent(in) :: words

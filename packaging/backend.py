@@ -1,10 +1,11 @@
 """The build backend of pyproject.toml: meson-python, with metadata that nothing is compiled for, the licences of what a
 wheel contains, and an editable installation that is complete.
 
-meson-python gives metadata only with a whole wheel, so that pip compiles everything under "Preparing metadata", without a word
-of progress, and then once more. Nothing of dondolo's metadata is known by the build alone.
+meson-python gives metadata only with a whole wheel, so that pip compiles everything under "Preparing metadata", without
+a word of progress. All of dondolo's metadata are in pyproject.toml.
 
-Wheels that are given to others contain libraries of the compiler and LAPACK: the licence in their metadata names those, too.
+Wheels that are given to others contain libraries of the compiler and LAPACK: the licence in their metadata names those,
+too.
 
 meson-python's own editable installation has neither the executable nor the example records, and after a build in
 isolation, which is what ``pip install -e .`` does, it calls a ninja that no longer exists. Here an editable wheel holds
@@ -57,12 +58,14 @@ def read_metadata(is_standalone: bool) -> StandardMetadata:
 
 
 def puts_libraries_inside(settings: Mapping[str, object] | None) -> bool:
-    """Whether a wheel of these settings is for other machines; those of cibuildwheel are, on macOS without a setting."""
+    """Whether a wheel is for other machines; those of cibuildwheel are, on macOS without a setting."""
     given = (settings or {}).get("setup-args", [])
     return "-Dstandalone=true" in ([given] if isinstance(given, str) else given) or "CIBUILDWHEEL" in os.environ
 
 
-def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: Mapping[str, object] | None = None) -> str:
+def prepare_metadata_for_build_wheel(
+    metadata_directory: str, config_settings: Mapping[str, object] | None = None
+) -> str:
     """Write the metadata of the wheel, and return the name of their folder (PEP 517)."""
     metadata = read_metadata(puts_libraries_inside(config_settings))
     folder = Path(metadata_directory, f"{metadata.canonical_name}-{metadata.version}.dist-info")

@@ -29,7 +29,13 @@ def problems(wheel: Path) -> list[str]:
     ]
     licences = ["LICENSE", *(f"packaging/licenses/{path.name}" for path in (ROOT / "packaging/licenses").iterdir())]
     program = ".data/scripts/dondolo.exe" if is_windows else ".data/scripts/dondolo"
-    wanted = [*sources, *examples, program, "dondolo/reporting/locale/it.mo", *(f".dist-info/licenses/{name}" for name in licences)]
+    wanted = [
+        *sources,
+        *examples,
+        program,
+        "dondolo/reporting/locale/it.mo",
+        *(f".dist-info/licenses/{name}" for name in licences),
+    ]
     found += [f"lacks {end}" for end in wanted if not any(name.endswith(end) for name in names)]
     patterns = [r"dondolo/_fortran/_core\..*\.so", r"dondolo\.libs/libgfortran.*", r"dondolo\.libs/libgomp.*"]
     if is_windows:

@@ -1,8 +1,8 @@
 """The pages of the archive for Windows: python windows_pages.py FOLDER WHEEL
 
 The tutorial in both languages, the glossary and the page of the installation on Windows, as HTML that a browser opens
-without a network, and README.txt. Links to pages that are not in the archive become plain words. WHEEL is the name of the
-wheel for Windows that was built with the archive: the pages name it.
+without a network, and README.txt. Links to pages that are not in the archive become plain words. The pages name WHEEL,
+the wheel for Windows that was built with the archive.
 """
 
 import re

@@ -1,7 +1,8 @@
 """The wheel for Windows from what meson has installed: python windows_wheel.py PREFIX DETAILS FOLDER [LICENCE...]
 
-PREFIX is the installation, DETAILS the build-details.json of the Python for which its extension module is compiled, and the LICENCEs,
-beside those in pyproject.toml, are of libraries of the compiler. What meson-python does where it builds for its own Python only.
+PREFIX is the installation, and DETAILS the build-details.json of the Python for which its extension module is compiled.
+The LICENCEs, beside those in pyproject.toml, are of libraries of the compiler. meson-python builds wheels for its own
+Python only.
 """
 
 import json

@@ -1,9 +1,9 @@
 """Compare the tables of two systems: python same_results.py FOLDER FOLDER
 
 The C library's mathematics differ between systems in the last bit. Every count of collapses, every name and the number
-of rows must be the same, medians within 1e-9 and EDPs within 1e-5 of the capacity. A few motions of many impacts magnify
-the last bit beyond that, also between the build variants of one system: one row in 500 may differ by up to 0.01. Prints
-how many tables there are, the largest differences, and how many such rows.
+of rows must be the same, medians within 1e-9 and EDPs within 1e-5 of the capacity. A few motions of many impacts
+magnify the last bit beyond that, also between the build variants of one system: one row in 500 may differ by up to
+0.01. Prints how many tables there are, the largest differences, and how many such rows.
 """
 
 import csv

@@ -118,6 +118,16 @@ sed "s#'out/parapet'#'out/${deep:0:120}/${deep:0:120}/wall'#" parapet.nml >deep.
 dondolo deep.nml
 check "a path of more than 260 letters: refused" equal "$rc" 2
 check "a path of more than 260 letters: before the run" contains "$work/stderr" "deep.nml: &job: output = 'out/cartella"
+check "a path of more than 260 letters: how many are allowed" contains "$work/stderr" "Windows allows 259: shorten it"
+for output in out/con out/Aux.x/wall nul; do
+   sed "s#'out/parapet'#'$output'#" parapet.nml >device.nml
+   dondolo device.nml
+   check "the name of a device, $output: refused" equal "$rc" 2
+   check "the name of a device, $output: why" contains "$work/stderr" "output = '$output': con, prn, aux, nul, com1 to com9"
+done
+sed "s#'out/parapet'#'out/console/com1_x'#" parapet.nml >device.nml
+dondolo device.nml
+check "a name that only begins with that of a device" equal "$rc" 0
 dondolo --walls 1:10 historic_centre.nml
 dondolo --walls 11:420 historic_centre.nml
 dondolo --merge historic_centre.nml 'out/historic_centre_walls_*.counts'

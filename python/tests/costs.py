@@ -23,7 +23,7 @@ def calls(work):
 
 
 def unit():
-    """CPU time of a fixed piece of work, half of it Python's and half NumPy's [s]; a tenth of a second where nothing else runs."""
+    """CPU time of a fixed piece of work, half of it Python's and half NumPy's: 0.1 s where nothing else runs."""
     start = time.process_time()
     total = 0
     for i in range(800_000):

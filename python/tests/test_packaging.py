@@ -157,7 +157,9 @@ def test_a_commit_runs_the_same_verbs_anywhere(root, tmp_path):
     for path in ("test", "bin"):
         (tmp_path / path).mkdir()
     (tmp_path / "test/verbs.sh").write_text(script)
-    (tmp_path / "run").write_text("#!/bin/sh\nmkdir -p out/quick/records && cp -r data/records/synthetic44 out/quick/records\n")
+    (tmp_path / "run").write_text(
+        "#!/bin/sh\nmkdir -p out/quick/records && cp -r data/records/synthetic44 out/quick/records\n"
+    )
     (tmp_path / "run").chmod(0o755)
     (tmp_path / "data/records/synthetic44").mkdir(parents=True)
     count = tmp_path / "bin/git"
@@ -184,7 +186,9 @@ def test_fresh_says_what_it_lacks(root, tmp_path):
         (tmp_path / name).symlink_to(shutil.which(name))
     run = subprocess.run(
         ["bash", root / "test/fresh.sh", "demo"],
-        capture_output=True, text=True, check=False,
+        capture_output=True,
+        text=True,
+        check=False,
         env={"PATH": str(tmp_path), "HOME": str(tmp_path)},
     )
     assert run.returncode == 1
@@ -197,11 +201,14 @@ def test_wheels_are_installed_by_their_file_names(root):
     for path in texts:
         for line in path.read_text().splitlines():
             if "pip install" in line and "never `pip install dondolo`" not in line:
-                assert not re.search(r"pip install\b(?!.*(\.whl|--no-index)).*[\s'\"]dondolo([\s\['\"]|$)", line), (path, line)
+                assert not re.search(r"pip install\b(?!.*(\.whl|--no-index)).*[\s'\"]dondolo([\s\['\"]|$)", line), (
+                    path,
+                    line,
+                )
 
 
 def test_metadata_need_no_compiler(backend, tmp_path):
-    """pip asks for them before it builds; they are those of the wheel, with the licences of what is inside."""
+    """Pip asks for them before it builds; they are those of the wheel, with the licences of what is inside."""
     for settings, inside in (({}, False), ({"setup-args": "-Dstandalone=true"}, True)):
         made = tmp_path / str(inside)
         made.mkdir()

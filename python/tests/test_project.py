@@ -446,7 +446,8 @@ import dondolo
 print_costs()
 names = [getattr(of, name) for of in (dondolo, dondolo.results) for name in of.__all__]
 print_costs()
-print(*(name for name in ("scipy", "pandas", "matplotlib", "jinja2", "tqdm", "concurrent.futures") if name in sys.modules))
+heavy = ("scipy", "pandas", "matplotlib", "jinja2", "tqdm", "concurrent.futures")
+print(*(name for name in heavy if name in sys.modules))
 """
 
 
@@ -488,7 +489,8 @@ def test_names_are_loaded_when_they_are_used(tmp_path):
 def test_a_call_costs_little():
     """Calls of functions and memory of one history, whatever the number of samples, which are never copied.
 
-    There are 142 calls and a few for each warning, and 4 kB are allocated; a tenth more calls are allowed. 6000 samples have 48 kB.
+    There are 142 calls and a few for each warning, and 4 kB are allocated; a tenth more calls are allowed. 6000 samples
+    have 48 kB.
     """
     wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, overburden_inertia=0.0, eccentricity=0.05)
     counts, peaks = [], []

@@ -50,7 +50,7 @@ def test_as_one_by_one(tmp_path):
 
 @pytest.mark.slow
 def test_ten_thousand_sites_take_seconds(tmp_path):
-    """Two seconds where nothing else runs, seventeen of costs.unit; and eight times the sites take about eight times as long."""
+    """Two where nothing else runs, 17 of costs.unit; and eight times the sites take about eight times as long."""
     paths = {n: file_of(tmp_path / f"{n}.csv", grid(n), np.linspace(0.5, 2.0, n)) for n in (1250, 10_000)}
     assert growth(lambda n: dd.read_site_hazards(paths[n]), *paths) < 24.0
     ratios = []
