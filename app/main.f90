@@ -22,7 +22,7 @@ program dondolo_main
    use dondolo_case_run_case, only : run_case
    use dondolo_completion, only : print_completion
    use dondolo_example, only : print_example
-   use dondolo_files_process, only : hold_console, sleep_while_waiting
+   use dondolo_files_process, only : hold_console, receive_file, sleep_while_waiting
    use dondolo_files_references, only : list_bibtex
    use dondolo_files_system, only : output_arrives, set_up_process, stderr_is_terminal
    use dondolo_files_version, only : dondolo_version_text
@@ -37,8 +37,9 @@ program dondolo_main
    implicit none
 
    !> What a double click shows
-   character(len=*), parameter :: first_steps = 'dondolo is called in a command prompt: open the folder of your study, type cmd'// &
-      & new_line('a')//'into the address bar of its window, press Enter, and then type'//new_line('a')//new_line('a')// &
+   character(len=*), parameter :: first_steps = 'To run a case, drop its file on dondolo.exe. For all else, call dondolo in a'// &
+      & new_line('a')//'command prompt: open the folder of your study, type cmd into the address bar of its'// &
+      & new_line('a')//'window, press Enter, and then type'//new_line('a')//new_line('a')// &
       & '   dondolo --example parapet > parapet.nml     to print a ready case'//new_line('a')// &
       & '   dondolo parapet.nml                         to run it'//new_line('a')// &
       & '   dondolo --help                              to list the options'//new_line('a')//new_line('a')// &
@@ -54,6 +55,7 @@ program dondolo_main
    if (command_argument_count() == 0) call hold_console(first_steps)
    call read_arguments(arguments, error)
    if (allocated(error)) call give_up(error)
+   if (arguments%action == 'run' .and. command_argument_count() == 1) call receive_file(arguments%case_file)
    ! What computes on several threads
    if (any(arguments%action == [character(len=9) :: 'run', 'check', 'merge', 'benchmark'])) then
       if (available_threads() > 1) call sleep_while_waiting()

@@ -1,4 +1,11 @@
-"""The build backend of pyproject.toml: meson-python, with an editable installation that is complete.
+"""The build backend of pyproject.toml: meson-python, with metadata that nothing is compiled for, the licences of what a
+wheel contains, and an editable installation that is complete.
+
+meson-python gives metadata only with a whole wheel, so that pip compiles everything under "Preparing metadata", without
+a word of progress. All of dondolo's metadata are in pyproject.toml.
+
+Wheels that are given to others contain libraries of the compiler and LAPACK: the licence in their metadata names those,
+too.
 
 meson-python's own editable installation has neither the executable nor the example records, and after a build in
 isolation, which is what ``pip install -e .`` does, it calls a ninja that no longer exists. Here an editable wheel holds
@@ -9,13 +16,17 @@ install again: only changes are compiled.
 
 import base64
 import hashlib
+import os
 import sys
 import tempfile
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
-from mesonpy import build_sdist, build_wheel, get_requires_for_build_sdist, get_requires_for_build_wheel
+import mesonpy
+from mesonpy import build_sdist, get_requires_for_build_sdist, get_requires_for_build_wheel
+from pyproject_metadata import StandardMetadata
 
 __all__ = [
     "build_editable",
@@ -24,12 +35,82 @@ __all__ = [
     "get_requires_for_build_editable",
     "get_requires_for_build_sdist",
     "get_requires_for_build_wheel",
+    "prepare_metadata_for_build_editable",
+    "prepare_metadata_for_build_wheel",
 ]
 
-SOURCES = Path(__file__).resolve().parents[1] / "python"
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ROOT / "python"
+# Of LAPACK, of libgfortran, libgomp and libgcc, and of libquadmath: packaging/licenses/README.txt
+LICENCES_INSIDE = "BSD-3-Clause-Open-MPI AND GPL-3.0-or-later WITH GCC-exception-3.1 AND LGPL-2.1-or-later"
 PATH_FILE = "dondolo_editable.pth"
 
 get_requires_for_build_editable = get_requires_for_build_wheel
+
+
+def read_metadata(is_standalone: bool) -> StandardMetadata:
+    """Metadata of pyproject.toml, for a wheel with or without the libraries of others inside."""
+    with (ROOT / "pyproject.toml").open("rb") as file:
+        metadata = StandardMetadata.from_pyproject(tomllib.load(file), ROOT)
+    if is_standalone:
+        metadata.license = f"{metadata.license} AND {LICENCES_INSIDE}"
+    return metadata
+
+
+def puts_libraries_inside(settings: Mapping[str, object] | None) -> bool:
+    """Whether a wheel is for other machines; those of cibuildwheel are, on macOS without a setting."""
+    given = (settings or {}).get("setup-args", [])
+    return "-Dstandalone=true" in ([given] if isinstance(given, str) else given) or "CIBUILDWHEEL" in os.environ
+
+
+def prepare_metadata_for_build_wheel(
+    metadata_directory: str, config_settings: Mapping[str, object] | None = None
+) -> str:
+    """Write the metadata of the wheel, and return the name of their folder (PEP 517)."""
+    metadata = read_metadata(puts_libraries_inside(config_settings))
+    folder = Path(metadata_directory, f"{metadata.canonical_name}-{metadata.version}.dist-info")
+    folder.mkdir()
+    (folder / "METADATA").write_bytes(bytes(metadata.as_rfc822()))
+    for licence in metadata.license_files:
+        copy = folder / "licenses" / licence
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_bytes((ROOT / licence).read_bytes())
+    return folder.name
+
+
+prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel
+
+
+def build_wheel(
+    wheel_directory: str, config_settings: Mapping[str, object] | None = None, metadata_directory: str | None = None
+) -> str:
+    """Build a wheel and return its name (PEP 517)."""
+    name: str = mesonpy.build_wheel(wheel_directory, config_settings, metadata_directory)
+    if puts_libraries_inside(config_settings):
+        replace_metadata(Path(wheel_directory, name), bytes(read_metadata(is_standalone=True).as_rfc822()))
+    return name
+
+
+def replace_metadata(wheel: Path, metadata: bytes) -> None:
+    """Write other metadata into a wheel."""
+    with ZipFile(wheel) as file:
+        members = [(member, file.read(member)) for member in file.infolist()]
+    with ZipFile(wheel, "w", ZIP_DEFLATED) as file:
+        for member, content in members:
+            if member.filename.endswith(".dist-info/METADATA"):
+                content = metadata
+            elif member.filename.endswith(".dist-info/RECORD"):
+                lines = content.decode().splitlines()
+                place = next(i for i, line in enumerate(lines) if line.split(",")[0].endswith(".dist-info/METADATA"))
+                lines[place] = record_line(lines[place].split(",")[0], metadata)
+                content = "\n".join([*lines, ""]).encode()
+            file.writestr(member, content)
+
+
+def record_line(name: str, content: bytes) -> str:
+    """The line of a file in RECORD."""
+    digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+    return f"{name},sha256={digest},{len(content)}"
 
 
 def build_editable(
@@ -49,7 +130,6 @@ def build_editable(
 def make_editable(wheel: Path, editable: Path, sources: Path) -> None:
     """Write the editable wheel of a wheel, and what is compiled into the folder of the sources."""
     path = f"{sources}\n".encode()
-    digest = base64.urlsafe_b64encode(hashlib.sha256(path).digest()).rstrip(b"=").decode()
     with ZipFile(wheel) as whole, ZipFile(editable, "w", ZIP_DEFLATED) as made:
         for member in whole.infolist():
             content = whole.read(member)
@@ -62,6 +142,6 @@ def make_editable(wheel: Path, editable: Path, sources: Path) -> None:
                 continue
             if member.filename.endswith(".dist-info/RECORD"):
                 kept = [line for line in content.decode().splitlines() if not line.startswith("dondolo/")]
-                content = "\n".join([f"{PATH_FILE},sha256={digest},{len(path)}", *kept, ""]).encode()
+                content = "\n".join([record_line(PATH_FILE, path), *kept, ""]).encode()
             made.writestr(member, content)
         made.writestr(PATH_FILE, path)

@@ -5,7 +5,9 @@ set -euo pipefail
 
 ! command -v gfortran cc gcc ld
 python3 -m venv /root/venv
-/root/venv/bin/pip install --quiet --disable-pip-version-check --find-links "/root/$1" dondolo
+# By the name of its file: a package that a server calls dondolo would be somebody else's.
+tag=$(/root/venv/bin/python -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
+/root/venv/bin/pip install --quiet --disable-pip-version-check "/root/$1"/dondolo-*-"$tag"-*.whl
 export PATH=/root/venv/bin:$PATH
 mkdir /root/empty
 cd /root/empty

@@ -6,21 +6,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+. packaging/find_python.sh
 dist=${DONDOLO_DIST:-dist}
 # Debian releases and their Pythons
 releases=(bookworm:3.11 trixie:3.13 forky:3.14)
-
-# The Python of a version, from PATH or from pyenv
-find_python() {
-   local python
-   for python in "python$1" "${PYENV_ROOT:-$HOME/.pyenv}"/versions/"$1".*/bin/python; do
-      if "$python" -c '' 2>/dev/null; then
-         command -v "$python"
-         return
-      fi
-   done
-   printf 'no Python %s here: no wheel for it\n' "$1" >&2
-}
 
 fail() {
    printf 'wheel: %s\n' "$*" >&2
@@ -30,7 +19,11 @@ fail() {
 if [ $# -eq 0 ]; then
    for version in 3.11 3.12 3.13 3.14; do
       python=$(find_python "$version")
-      [ -z "$python" ] || set -- "$@" "$python"
+      if [ -n "$python" ]; then
+         set -- "$@" "$python"
+      else
+         printf 'no Python %s here: no wheel for it\n' "$version" >&2
+      fi
    done
 fi
 
@@ -67,9 +60,9 @@ for python; do
    }
    rm -rf "$work/venv"
 done
-rm -f "$dist"/*.whl
+rm -f "$dist"/*linux*.whl
 cp "$work"/repaired/*.whl "$dist/"
-python3 packaging/check_wheel.py "$dist"/*.whl || fail 'a wheel does not hold what it must'
+python3 packaging/check_wheel.py "$dist"/*linux*.whl || fail 'a wheel does not hold what it must'
 
 for release in "${releases[@]}"; do
    tag=cp${release#*:}

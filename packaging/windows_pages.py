@@ -1,7 +1,8 @@
-"""The pages of the archive for Windows: python windows_pages.py FOLDER
+"""The pages of the archive for Windows: python windows_pages.py FOLDER WHEEL
 
 The tutorial in both languages, the glossary and the page of the installation on Windows, as HTML that a browser opens
-without a network, and README.txt. Links to pages that are not in the archive become plain words.
+without a network, and README.txt. Links to pages that are not in the archive become plain words. The pages name WHEEL,
+the wheel for Windows that was built with the archive.
 """
 
 import re
@@ -13,6 +14,8 @@ from markdown_it import MarkdownIt
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PAGES = ("tutorial/first_wall", "tutorial/prima_parete", "tutorial/glossario", "windows")
+# As pages name it, of whatever Python
+WHEEL = re.compile(r"dondolo-[\d.]+-cp\d+-cp\d+-win_amd64\.whl")
 STYLE = """
 body { max-width: 46em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 "Segoe UI", sans-serif; color: #222 }
 pre { background: #f4f4f4; padding: .8em; overflow-x: auto }
@@ -39,12 +42,12 @@ def link(match: re.Match[str]) -> str:
     return match[0] if "://" in target else words
 
 
-def write_pages(root: Path) -> None:
-    """Write the pages and their pictures into a folder, and README.txt."""
+def write_pages(root: Path, wheel: str) -> None:
+    """Write the pages and their pictures into a folder, and README.txt, with the name of the wheel."""
     folder = root / "docs"
     folder.mkdir()
     for page in PAGES:
-        text = plain((DOCS / f"{page}.md").read_text(encoding="utf-8"))
+        text = WHEEL.sub(wheel, plain((DOCS / f"{page}.md").read_text(encoding="utf-8")))
         text = re.sub(r"(?<!!)\[([^\]]*)\]\(([^)]*)\)", link, text)
         for picture in re.findall(r"!\[[^\]]*\]\(([^)]*)\)", text):
             shutil.copy((DOCS / page).parent / picture, folder / Path(picture).name)
@@ -58,9 +61,9 @@ def write_pages(root: Path) -> None:
             f"<style>{STYLE}</style></head><body>\n{body}</body></html>\n"
         )
         (folder / f"{Path(page).stem}.html").write_text(html, encoding="utf-8")
-    readme = (DOCS.parent / "packaging/windows_readme.txt").read_text(encoding="utf-8")
+    readme = WHEEL.sub(wheel, (DOCS.parent / "packaging/windows_readme.txt").read_text(encoding="utf-8"))
     (root / "README.txt").write_text(readme, encoding="utf-8-sig", newline="\r\n")
 
 
 if __name__ == "__main__":
-    write_pages(Path(sys.argv[1]))
+    write_pages(Path(sys.argv[1]), sys.argv[2])

@@ -2,14 +2,20 @@
 # user's cache and copied for each use. They reach the network through the proxies and the package sources of this machine.
 debian_cache=${XDG_CACHE_HOME:-$HOME/.cache}/dondolo
 
-skip_without_debian() {
-   skip() {
-      printf 'skipped: %s needs %s\n' "$0" "$1" >&2
-      exit 0
-   }
-   [ "$(id -u)" = 0 ] || skip root
-   command -v debootstrap >/dev/null || skip 'debootstrap: apt-get install debootstrap'
-   unshare --mount --pid --fork true 2>/dev/null || skip 'a system that allows mount namespaces'
+# Can a fresh Debian be had? If not, one line says what is missing.
+need_debian() {
+   local needs=
+   if [ "$(id -u)" != 0 ]; then
+      needs=root
+   elif ! command -v debootstrap >/dev/null; then
+      needs='debootstrap: apt-get install debootstrap'
+   elif ! unshare --mount --pid --fork true 2>/dev/null; then
+      needs='a system that allows mount namespaces'
+   else
+      return 0
+   fi
+   printf 'a fresh Debian needs %s\n' "$needs" >&2
+   return 1
 }
 
 # The mirror of this machine, if it runs Debian

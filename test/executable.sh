@@ -887,7 +887,7 @@ people "semicolons and points" 'name;mechanism;height;thickness\na;one_sided;3,5
 people "decimal commas between commas" "${head}a,one_sided,3,5,0,25,1\n" \
    'walls.csv: line 2: 7 cells: must be 5 as in the header (columns separated by commas need decimal points)'
 people "Windows-1252" "${head}a\0340,one_sided,3,0.25,1\nb\0340,one_sided,3,0.25,1\n" \
-   'walls.csv: line 2: byte 2 (E0) is not UTF-8 (Windows-1252?): save it as UTF-8 (in Excel: CSV UTF-8)'
+   'walls.csv: line 2: byte 2 (E0) is not UTF-8 (Windows-1252?): save it as UTF-8 (Excel: Save As, CSV UTF-8; Notepad: Save As, Encoding UTF-8)'
 people "an empty file" '' 'walls.csv: the file is empty'
 rm walls.csv
 refused "population: no file" "people.nml: &population: file = 'walls.csv': there is no file walls.csv" people.nml

@@ -10,7 +10,7 @@ if [ $# -eq 0 ]; then
    set -- demo test
 fi
 
-skip_without_debian
+need_debian || exit 1
 make_debian bookworm bookworm git,ca-certificates
 copy_debian bookworm
 git clone --quiet . "$root/home/dondolo"

@@ -523,7 +523,7 @@ contains
 
    !> What is UTF-8, and what is not
    subroutine test_encodings()
-      character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
+      character(len=*), parameter :: remedy = ': save it as UTF-8 (Excel: Save As, CSV UTF-8; Notepad: Save As, Encoding UTF-8)'
       integer, parameter :: right(4, 5) = reshape([97, 98, 99, 100, 195, 160, 97, 98, 226, 130, 172, 97, &
          & 240, 159, 143, 155, 238, 128, 128, 97], [4, 5])
       ! Windows-1252, an overlong form, a surrogate, beyond U+10FFFF, a form that is cut off

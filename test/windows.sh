@@ -8,17 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 zip=$(realpath "$1") ours=$(realpath "$2") root=$PWD
 work=$(mktemp -d)
 . test/shell_checks.sh
-wine=/usr/lib/wine/wine64
-# Without its preloader one call of Wine in some 8000 ends at once with exit code 1 and without a word: where Linux puts the heap of its
-# loader at 0x7ffe0000, which Wine needs.
-[ -x ${wine}-preloader ] || { echo "windows: needs wine64-preloader" >&2; exit 1; }
-export WINEPREFIX=$work/wine WINEDEBUG=-all
-# Ended by Wine itself, which knows its own
-trap '/usr/lib/wine/wineserver64 -k; rm -rf "$work"' EXIT
-$wine wineboot --init >"$work/boot.log" 2>&1
-# One server for all calls: where it stops and starts between them, calls fail now and then. It ends at once if that of wineboot runs.
-/usr/lib/wine/wineserver64 -w
-/usr/lib/wine/wineserver64 -p || exit 1
+. test/wine.sh
 
 place="$work/Nuova cartella è"
 mkdir "$place"
@@ -27,7 +17,6 @@ folder=$(echo "$place"/dondolo-*)
 exe=$folder/bin/dondolo.exe
 # As test/executable.sh asks for
 chmod +x "$exe"
-x86_64-w64-mingw32-gcc-posix -O2 -x c -o "$work/tools.exe" test/windows_tools.inc || exit 1
 
 # dondolo WORDS...: sets rc and the files stdout and stderr; a shell of Windows would run dondolo.exe itself.
 dondolo() {
@@ -35,17 +24,6 @@ dondolo() {
    rc=$?
    tr -d '\r' <"$work/raw.1" >"$work/stdout"
    tr -d '\r' <"$work/raw.2" >"$work/stderr"
-}
-contains() { grep -qF -- "$2" "$1"; }
-equal() { [ "$1" = "$2" ] || { echo "'$1' should be '$2'"; return 1; }; }
-# wait_for COMMAND...: up to 60 s
-wait_for() {
-   local i
-   for ((i = 0; i < 1200; i++)); do
-      "$@" && return 0
-      sleep 0.05
-   done
-   return 1
 }
 
 for name in licences/dondolo.txt licences/GPL-3.0.txt licences/LGPL-2.1.txt licences/LAPACK.txt licences/mingw-w64.txt docs/first_wall.html \
@@ -92,6 +70,24 @@ check "no arguments in a command prompt: no first steps" test -z "$(words | grep
 in_console "$wine" "$exe" --version
 check "a console of its own with arguments: no first steps" test -z "$(words | grep -F exampleparapet)"
 
+# A case that was dropped on the program, in another folder
+mkdir -p "rilievo ì/altrove"
+cp parapet.nml "rilievo ì/caso ù.nml"
+cd "rilievo ì/altrove" || exit 1
+SECONDS=0
+in_console "$wine" "$exe" "Z:$(tr / '\\' <<<"$place")\\studio\\rilievo ì\\caso ù.nml"
+check "a dropped case: waits for a key" test "$SECONDS" -ge 8
+check "a dropped case: says so" grep -qF 'Pressanykeytoclosethiswindow' <<<"$(words)"
+check "a dropped case: writes beside the case" test -s ../out/parapet_run.json -a ! -e out
+sed -i 's/one_sided/nothing/' "../caso ù.nml"
+in_console "$wine" "$exe" "Z:$(tr / '\\' <<<"$place")\\studio\\rilievo ì\\caso ù.nml"
+check "a dropped case that is wrong: the error can be read" grep -qF 'Pressanykeytoclosethiswindow' <<<"$(words)"
+cd "$place/studio" || exit 1
+in_console "$wine" "$work/tools.exe" interrupt 6 "$exe" "Z:$(tr / '\\' <<<"$place")\\studio\\parapet.nml"
+check "a whole path in a command prompt: ends at once" test -z "$(words | grep -F Pressanykey)"
+dondolo relazione out/parapet
+check "without Python: says what to install" grep -q 'py -m pip install dondolo-.*-win_amd64.whl' "$work/stderr"
+
 # --- names ---------------------------------------------------------------------------------------------------------
 
 mkdir -p "città"
@@ -122,6 +118,16 @@ sed "s#'out/parapet'#'out/${deep:0:120}/${deep:0:120}/wall'#" parapet.nml >deep.
 dondolo deep.nml
 check "a path of more than 260 letters: refused" equal "$rc" 2
 check "a path of more than 260 letters: before the run" contains "$work/stderr" "deep.nml: &job: output = 'out/cartella"
+check "a path of more than 260 letters: how many are allowed" contains "$work/stderr" "Windows allows 259: shorten it"
+for output in out/con out/Aux.x/wall nul; do
+   sed "s#'out/parapet'#'$output'#" parapet.nml >device.nml
+   dondolo device.nml
+   check "the name of a device, $output: refused" equal "$rc" 2
+   check "the name of a device, $output: why" contains "$work/stderr" "output = '$output': con, prn, aux, nul, com1 to com9"
+done
+sed "s#'out/parapet'#'out/console/com1_x'#" parapet.nml >device.nml
+dondolo device.nml
+check "a name that only begins with that of a device" equal "$rc" 0
 dondolo --walls 1:10 historic_centre.nml
 dondolo --walls 11:420 historic_centre.nml
 dondolo --merge historic_centre.nml 'out/historic_centre_walls_*.counts'

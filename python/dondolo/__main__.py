@@ -275,7 +275,7 @@ def _serve(options: argparse.Namespace) -> None:
     try:
         from dondolo.serve.server import serve
     except ModuleNotFoundError as error:
-        raise dd.errors.DondoloError(f"serve needs {error.name}: pip install 'dondolo[serve]'") from None
+        raise dd.errors.DondoloError(f"serve needs {error.name}: pip install starlette uvicorn") from None
     lang = Language(options.lang).code
     serve(options.case, options.records, options.port, not options.no_browser, options.threads, lang)
 

@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 import pytest
+from costs import unit
 from public import public_things
 
 import dondolo as dd
@@ -488,7 +489,8 @@ def test_an_event_breaks_a_case_off(is_main, task, engine, tmp_path):
     def run():
         dd.run_case(tmp_path / "case.nml", progress=False, stop=stop)
 
-    begin = time.monotonic()
+    # CPU time, in which other programs have no part
+    begin = time.process_time()
     if is_main:
         with pytest.raises(dd.errors.Interrupted) as caught:
             run()
@@ -496,7 +498,7 @@ def test_an_event_breaks_a_case_off(is_main, task, engine, tmp_path):
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     else:
         (error,) = _in_a_thread(run)
-    assert time.monotonic() - begin < 20.0
+    assert time.process_time() - begin < 200.0 * unit()
     assert (str(error), error.partial) == ("interrupted", None)
     assert sorted(os.listdir(tmp_path)) == before
     # An event of an earlier run ends nothing of the next, which runs in the same threads.

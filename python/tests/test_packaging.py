@@ -3,7 +3,10 @@
 import base64
 import hashlib
 import importlib.util
+import json
+import os
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -126,9 +129,116 @@ def test_every_verb_has_a_small_form(root):
     assert verbs(root) - elsewhere == {form.split()[0] for form in timed} - {"build"}
     turns = re.search(r"^by_fpm=\((.*?)\)\nothers=\((.*?)\)$", script, re.M | re.S)
     assert sorted(re.findall(r"'([^']+)'", turns[1] + turns[2])) == sorted(timed)
-    weekly = set(re.findall(r"^          - (\w+)", (root / ".github/workflows/verbs.yml").read_text(), re.M))
+    weekly = {form.split()[0] for form in turn(root, "all")}
     nightly = set(re.findall(r"^      - run: ./run (\w+)", (root / ".github/workflows/windows.yml").read_text(), re.M))
     assert verbs(root) - elsewhere <= weekly | nightly
+
+
+def turn(root, day):
+    """The verbs that a night runs in full."""
+    run = subprocess.run(["bash", root / "test/turn.sh", day], capture_output=True, text=True, check=True)
+    return json.loads(run.stdout)
+
+
+def test_nights_take_turns(root):
+    """Each verb has one night of the week, of known days only, and a release waits for all of them."""
+    nights = [form for day in "1234567" for form in turn(root, day)]
+    assert sorted(nights) == sorted(set(nights)) == sorted(turn(root, "all"))
+    assert set(turn(root, "today")) < set(nights)
+    assert subprocess.run(["bash", root / "test/turn.sh", "8"], capture_output=True, check=False).returncode == 2
+    release = (root / ".github/workflows/release.yml").read_text()
+    assert "uses: ./.github/workflows/verbs.yml" in release
+    assert re.search(r"^    needs: \[.*\bverbs\b.*\]$", release, re.M)
+
+
+def test_a_commit_runs_the_same_verbs_anywhere(root, tmp_path):
+    """Which small forms run depends on the commit and the minutes of the table; each runs at one commit or another."""
+    script = (root / "test/verbs.sh").read_text()
+    for path in ("test", "bin"):
+        (tmp_path / path).mkdir()
+    (tmp_path / "test/verbs.sh").write_text(script)
+    (tmp_path / "run").write_text(
+        "#!/bin/sh\nmkdir -p out/quick/records && cp -r data/records/synthetic44 out/quick/records\n"
+    )
+    (tmp_path / "run").chmod(0o755)
+    (tmp_path / "data/records/synthetic44").mkdir(parents=True)
+    count = tmp_path / "bin/git"
+    seen = set()
+    for commits in range(11):
+        # Of a machine with this number of commits
+        count.write_text(f"#!/bin/sh\nif [ $1 = rev-list ]; then echo {commits}; fi\n")
+        count.chmod(0o755)
+        environment = os.environ | {"PATH": f"{count.parent}:{os.environ['PATH']}", "DONDOLO_MINUTES": "12"}
+        run = subprocess.run(
+            ["bash", tmp_path / "test/verbs.sh"], capture_output=True, text=True, check=True, env=environment
+        )
+        passed = {line.split("  ")[0] for line in run.stdout.splitlines() if " passed " in line}
+        assert passed
+        seen |= passed
+    timed = set(re.findall(r"^   \['([^']+)'\]=\d+$", script, re.M))
+    # Those that this machine lacks something for are skipped
+    assert timed - seen <= {"windows --quick", "oldest --quick"}
+
+
+def test_fresh_says_what_it_lacks(root, tmp_path):
+    """It fails in one line where no fresh Debian can be made, and does not pass in silence."""
+    for name in ("id", "dirname", "bash"):
+        (tmp_path / name).symlink_to(shutil.which(name))
+    run = subprocess.run(
+        ["bash", root / "test/fresh.sh", "demo"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={"PATH": str(tmp_path), "HOME": str(tmp_path)},
+    )
+    assert run.returncode == 1
+    assert re.fullmatch(r"a fresh Debian needs (root|debootstrap: apt-get install debootstrap)\n", run.stderr)
+
+
+def test_wheels_are_installed_by_their_file_names(root):
+    """No page tells to install what a server calls dondolo."""
+    texts = [root / "README.md", root / "CONTRIBUTING.md", *root.glob("docs/**/*.md"), *root.glob("packaging/*.*")]
+    for path in texts:
+        for line in path.read_text().splitlines():
+            if "pip install" in line and "never `pip install dondolo`" not in line:
+                assert not re.search(r"pip install\b(?!.*(\.whl|--no-index)).*[\s'\"]dondolo([\s\['\"]|$)", line), (
+                    path,
+                    line,
+                )
+
+
+def test_metadata_need_no_compiler(backend, tmp_path):
+    """Pip asks for them before it builds; they are those of the wheel, with the licences of what is inside."""
+    for settings, inside in (({}, False), ({"setup-args": "-Dstandalone=true"}, True)):
+        made = tmp_path / str(inside)
+        made.mkdir()
+        name = backend.prepare_metadata_for_build_wheel(str(made), settings)
+        text = (made / name / "METADATA").read_text()
+        licence = re.search(r"^License-Expression: (.*)$", text, re.M)[1]
+        assert licence == ("MIT AND " + backend.LICENCES_INSIDE if inside else "MIT")
+        for path in re.findall(r"^License-File: (.*)$", text, re.M):
+            assert (made / name / "licenses" / path).is_file()
+        assert {path.name for path in (made / name).iterdir()} == {"METADATA", "licenses"}
+
+
+def test_a_wheel_for_others_names_the_licences_inside(backend, wheel, tmp_path, monkeypatch):
+    """Whether its metadata were asked for or not; the record of the wheel follows."""
+
+    def build(folder, settings, metadata):
+        (backend.Path(folder) / wheel.name).write_bytes(wheel.read_bytes())
+        return wheel.name
+
+    monkeypatch.setattr(backend.mesonpy, "build_wheel", build)
+    monkeypatch.delenv("CIBUILDWHEEL", raising=False)
+    for settings in ({}, {"setup-args": ["-Dnative=false", "-Dstandalone=true"]}):
+        backend.build_wheel(str(tmp_path), settings)
+        with zipfile.ZipFile(tmp_path / wheel.name) as file:
+            text = file.read("dondolo-1.dist-info/METADATA")
+            record = file.read("dondolo-1.dist-info/RECORD").decode()
+            assert file.testzip() is None
+        assert (b"LGPL-2.1-or-later" in text) == bool(settings)
+        digest = base64.urlsafe_b64encode(hashlib.sha256(text).digest()).rstrip(b"=").decode()
+        assert (f"dondolo-1.dist-info/METADATA,sha256={digest},{len(text)}\n" in record) == bool(settings)
 
 
 def test_workflows_are_pinned_and_may_only_read(root):

@@ -262,7 +262,7 @@ def test_table_that_is_no_utf8(encoding, tmp_path):
     path = tmp_path / "walls.csv"
     path.write_text(SPREADSHEET, encoding=encoding)
     with pytest.raises(
-        dd.errors.InputError, match=r"line \d: byte \d.* is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
+        dd.errors.InputError, match=r"line \d: byte \d.* is .*: save it as UTF-8 \(Excel: Save As, CSV UTF-8; Notepad: "
     ) as caught:
         dd.Population.from_csv(path)
     assert "\n" not in str(caught.value)

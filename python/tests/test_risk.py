@@ -625,7 +625,7 @@ def test_hazard_that_is_no_utf8(tmp_path):
     table = "# città\npga,annual_frequency\n0.1,0.01\n0.2,0.001\n"
     path.write_text(table, encoding="cp1252")
     with pytest.raises(
-        dd.errors.InputError, match=r"line 1: byte 7 \(E0\) is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
+        dd.errors.InputError, match=r"line 1: byte 7 \(E0\) is .*: save it as UTF-8 \(Excel: Save As, CSV UTF-8; "
     ):
         dd.HazardCurve.from_csv(path)
     path.write_text(table, encoding="utf-16")

@@ -11,7 +11,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from costs import growth
+from costs import calls, growth
 
 import dondolo as dd
 from dondolo._fortran import _core
@@ -82,22 +82,6 @@ def test_a_call_costs_little_beside_its_histories(wall, records, replace_procedu
         stripes()
         outside.append(time.thread_time() - start)
     assert min(outside) < 0.055 * min(inside)
-
-
-def calls(work):
-    """How many functions, of Python and of C, a piece of work calls."""
-    count = 0
-
-    def note(frame, event, argument):
-        nonlocal count
-        count += event in ("call", "c_call")
-
-    sys.setprofile(note)
-    try:
-        work()
-    finally:
-        sys.setprofile(None)
-    return count
 
 
 def test_a_call_does_little_besides_its_histories(wall, records):

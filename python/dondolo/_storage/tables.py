@@ -115,7 +115,7 @@ def frame(table: Table) -> Any:
     try:
         import pandas as pd
     except ImportError:
-        raise DondoloError("pandas is not installed: pip install 'dondolo[tables]'; CSV files need no pandas") from None
+        raise DondoloError("pandas is not installed: pip install pandas; CSV files need no pandas") from None
     return pd.DataFrame(table)
 
 

@@ -83,7 +83,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
         import xlsxwriter  # noqa: F401
     except ImportError:
         raise DondoloError(
-            "XlsxWriter is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
+            "XlsxWriter is not installed: pip install XlsxWriter; spreadsheets open the CSV files too"
         ) from None
     language = Language(lang)
     target = as_file("path", path, ".xlsx")

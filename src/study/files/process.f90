@@ -5,7 +5,7 @@ module dondolo_files_process
    implicit none
    private
 
-   public :: own_folder, become, sleep_while_waiting, hold_console
+   public :: own_folder, become, sleep_while_waiting, hold_console, receive_file
 
    interface
 
@@ -42,6 +42,13 @@ module dondolo_files_process
          !> Text, with a NUL at its end
          character(kind=c_char), intent(in) :: text(*)
       end subroutine c_hold_console
+
+      !> Work in the folder of a file that was dropped on the program; see windows_process.c
+      subroutine c_receive_file(path) bind(c, name='dondolo_receive_file')
+         import :: c_char
+         !> Path, with a NUL at its end
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine c_receive_file
 
    end interface
 
@@ -116,5 +123,13 @@ contains
 
       call c_hold_console(text//c_null_char)
    end subroutine hold_console
+
+   !> Where a file was dropped on the program on Windows, work in its folder, and wait for a key at the end
+   subroutine receive_file(path)
+      !> The only word that the program was given; a path that is not absolute changes nothing
+      character(len=*), intent(in) :: path
+
+      call c_receive_file(path//c_null_char)
+   end subroutine receive_file
 
 end module dondolo_files_process

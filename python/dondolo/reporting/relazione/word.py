@@ -73,7 +73,7 @@ def write_word(
         import docx
     except ImportError:
         raise DondoloError(
-            "python-docx is not installed: pip install 'dondolo[documents]', or write the report as HTML or PDF"
+            "python-docx is not installed: pip install python-docx, or write the report as HTML or PDF"
         ) from None
     title = next(block.text for block in blocks if isinstance(block, Heading))
     if template is None:

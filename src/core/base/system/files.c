@@ -230,6 +230,14 @@ static int open_marked(const char *path, int access, int *is_made)
    return open(path, how, 0666 | S_ISVTX);
 }
 
+/* What keeps a path from being that of a file, but for what is on the disk: -1: the name of a device of Windows; its number of
+   letters if they are too many for Windows; 0: nothing, as of any path of POSIX */
+int dondolo_path_problem(const char *path)
+{
+   (void)path;
+   return 0;
+}
+
 /* Make an empty file and remove it; 1: that can be done. It has the sticky bit of dondolo_take_lock: so one that a killed
    trial has left is removed too, and a file of somebody else's is not. */
 int dondolo_try_file(const char *path)

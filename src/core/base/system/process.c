@@ -118,4 +118,9 @@ void dondolo_hold_console(const char *text)
 {
    (void)text;
 }
+
+void dondolo_receive_file(const char *path)
+{
+   (void)path;
+}
 #endif

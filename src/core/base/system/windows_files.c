@@ -367,6 +367,36 @@ int dondolo_is_marked(HANDLE file, BY_HANDLE_FILE_INFORMATION *found)
    return GetFileInformationByHandle(file, found) && (found->dwFileAttributes & mark_of_ours) != 0;
 }
 
+/* 1: a folder or the file of a path has the name of a device, whatever follows a point */
+static int names_device(const char *path)
+{
+   static const char *const devices[] = {"CON", "PRN", "AUX", "NUL"};
+
+   while (*path != '\0') {
+      size_t length = strcspn(path, "/\\"), stem = strcspn(path, "/\\. :");
+
+      for (size_t i = 0; stem == 3 && i < sizeof devices / sizeof *devices; i++)
+         if (_strnicmp(path, devices[i], 3) == 0)
+            return 1;
+      if (stem == 4 && (_strnicmp(path, "COM", 3) == 0 || _strnicmp(path, "LPT", 3) == 0) && path[3] >= '1' && path[3] <= '9')
+         return 1;
+      path += length + (path[length] != '\0');
+   }
+   return 0;
+}
+
+int dondolo_path_problem(const char *path)
+{
+   wchar_t *wide = dondolo_wide(path);
+   DWORD length = wide == NULL ? 0 : GetFullPathNameW(wide, 0, NULL, NULL);
+
+   free(wide);
+   if (names_device(path))
+      return -1;
+   /* With the NUL at its end */
+   return length > MAX_PATH ? (int)length - 1 : 0;
+}
+
 int dondolo_try_file(const char *path)
 {
    BY_HANDLE_FILE_INFORMATION found;

@@ -53,17 +53,50 @@ int dondolo_is_terminal(int descriptor)
    return GetConsoleMode((HANDLE)_get_osfhandle(descriptor), &mode) != 0;
 }
 
-/* A console that no other program is in was opened for this one and closes with it, as after a double click: show a text there
-   and wait for a key. */
+/* 1: no other program is in the console, which was opened for this one and closes with it, as after a double click. A task of the
+   system (in session 0) has such a console too, but nobody sees it. */
+static int has_own_console(void)
+{
+   DWORD processes[2], session = 0;
+
+   return dondolo_is_terminal(0) && dondolo_is_terminal(1) && GetConsoleProcessList(processes, 2) == 1 &&
+      ProcessIdToSessionId(GetCurrentProcessId(), &session) && session != 0;
+}
+
+/* Show a text in a console that closes with the program, and wait for a key. */
 void dondolo_hold_console(const char *text)
 {
-   DWORD processes[2];
-
-   if (dondolo_is_terminal(0) && dondolo_is_terminal(1) && GetConsoleProcessList(processes, 2) == 1) {
+   if (has_own_console()) {
       fputs(text, stdout);
       fflush(stdout);
       _getch();
    }
+}
+
+static void wait_for_key(void)
+{
+   fputs("\nPress any key to close this window.\n", stdout);
+   fflush(stdout);
+   _getch();
+}
+
+/* A file was dropped on the program: its whole path is the only word, and the console closes with the program. Work in the folder of
+   the file, and wait for a key at the end. */
+void dondolo_receive_file(const char *path)
+{
+   size_t length = dondolo_last_separator(path);
+   wchar_t *folder = NULL;
+   char *plain = malloc(length + 1);
+
+   if (plain != NULL && length > 0 && dondolo_is_absolute(path) && has_own_console()) {
+      memcpy(plain, path, length);
+      plain[length] = '\0';
+      folder = dondolo_wide(plain);
+      if (folder != NULL && SetCurrentDirectoryW(folder))
+         atexit(wait_for_key);
+   }
+   free(plain);
+   free(folder);
 }
 
 /* Put a word behind others as the start of the other program takes it apart, and return its end */
@@ -92,28 +125,31 @@ static wchar_t *quote(wchar_t *to, const wchar_t *word)
    return to;
 }
 
-/* The program of a name: with a folder, or else in one of PATH, never in the current folder; 1: found */
+/* The program of a name: with a folder, in it or one folder up, or else in one of PATH, never in the current folder; 1: found.
+   pip puts programs into the folder Scripts of a Python, whose python.exe is in that of a virtual environment or one folder up. */
 static int find_program(const char *name, wchar_t *path, DWORD room)
 {
-   size_t length = strlen(name);
-   char *plain = malloc(length + 5);
+   size_t length = strlen(name), size = length + sizeof "../.exe";
+   const char *slash = strrchr(name, '/'), *base = slash == NULL ? name : slash + 1;
+   char *plain = malloc(size);
    const wchar_t *folders = _wgetenv(L"PATH");
-   wchar_t *wide = NULL;
    DWORD found = 0;
 
-   if (plain != NULL) {
-      /* It has no number there. */
-      if (length >= 7 && strcmp(name + length - 7, "python3") == 0)
-         length--;
-      snprintf(plain, length + 5, "%.*s.exe", (int)length, name);
+   /* It has no number there. */
+   if (length >= 7 && strcmp(name + length - 7, "python3") == 0)
+      length--;
+   for (int up = 0; plain != NULL && found == 0 && up <= (slash != NULL); up++) {
+      wchar_t *wide;
+
+      snprintf(plain, size, "%.*s%s%.*s.exe", (int)(base - name), name, up ? "../" : "", (int)(length - (size_t)(base - name)), base);
       wide = dondolo_wide(plain);
+      if (wide != NULL && slash != NULL)
+         found = GetFileAttributesW(wide) != INVALID_FILE_ATTRIBUTES ? GetFullPathNameW(wide, room, path, NULL) : 0;
+      else if (wide != NULL && folders != NULL)
+         found = SearchPathW(folders, wide, NULL, room, path, NULL);
+      free(wide);
    }
-   if (wide != NULL && strchr(name, '/') != NULL)
-      found = GetFileAttributesW(wide) != INVALID_FILE_ATTRIBUTES ? GetFullPathNameW(wide, room, path, NULL) : 0;
-   else if (wide != NULL && folders != NULL)
-      found = SearchPathW(folders, wide, NULL, room, path, NULL);
    free(plain);
-   free(wide);
    return found > 0 && found < room;
 }
 

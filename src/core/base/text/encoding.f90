@@ -123,7 +123,7 @@ contains
       !> 'byte 7 (E9) is not UTF-8 ...'
       character(len=:), allocatable, intent(out) :: problem
 
-      character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
+      character(len=*), parameter :: remedy = ': save it as UTF-8 (Excel: Save As, CSV UTF-8; Notepad: Save As, Encoding UTF-8)'
       character(len=32) :: place
       integer :: at
 

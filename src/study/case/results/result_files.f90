@@ -14,6 +14,7 @@
 !> checkpoint is removed. Tables begin with a line that names RUN, so that files that were brought together by other
 !> means are found out.
 module dondolo_case_result_files
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_error, only : error_type, raise_failure, raise_input, status_failure
    use dondolo_base_lines, only : lines_type
@@ -82,6 +83,17 @@ module dondolo_case_result_files
       procedure :: close => close_files
    end type result_files_type
 
+   interface
+
+      !> What keeps a path from being that of a file; see files.c
+      integer(c_int) function path_problem(path) bind(c, name='dondolo_path_problem')
+         import :: c_char, c_int
+         !> Path, with a NUL at its end
+         character(kind=c_char), intent(in) :: path(*)
+      end function path_problem
+
+   end interface
+
 contains
 
    !> Try whether result files can be written, and leave no trace
@@ -98,10 +110,14 @@ contains
       ! The name of no run: a trial that was killed at once is found, and removed, by the next
       character(len=*), parameter :: trial = '00000000T000000Z-0000000000000000'
       type(lines_type) :: made
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, longest
       logical :: ok
       integer :: i, j
 
+      ! No name of a result file is longer than this one
+      longest = staged(prefix//'_histories.csv', trial)
+      call check_names(prefix, longest, error)
+      if (allocated(error)) return
       do i = 1, size(suffixes)
          path = prefix//trim(suffixes(i))
          if (is_folder(path)) then
@@ -121,8 +137,7 @@ contains
       do i = 1, tries
          call make_folders(prefix, made, ok)
          if (.not. ok) cycle
-         ! No name of a result file is longer than this one
-         call try_file(staged(prefix//'_histories.csv', trial), ok)
+         call try_file(longest, ok)
          if (ok) exit
       end do
       if (.not. ok) then
@@ -134,6 +149,32 @@ contains
       end if
       call remove_folders(made)
    end subroutine check_output
+
+   !> Refuse names that Windows has for devices, and paths that are too long for it
+   subroutine check_names(prefix, longest, error)
+      !> What the names of all files begin with; that of the lock is the shortest
+      character(len=*), intent(in) :: prefix
+      !> The longest path
+      character(len=*), intent(in) :: longest
+      !> `why`
+      type(error_type), allocatable, intent(out) :: error
+
+      ! MAX_PATH of Windows, less the NUL at the end
+      integer, parameter :: most_letters = 259
+      character(len=12) :: letters, most
+      integer :: problem
+
+      if (path_problem(prefix//'.lock'//c_null_char) < 0) then
+         call raise_input(error, 'con, prn, aux, nul, com1 to com9 and lpt1 to lpt9 are devices of Windows: choose another name')
+         return
+      end if
+      problem = path_problem(longest//c_null_char)
+      if (problem <= 0) return
+      write (letters, '(i0)') problem
+      write (most, '(i0)') most_letters
+      call raise_input(error, 'a path of '//trim(letters)//' letters would be written, Windows allows '//trim(most)// &
+         & ': shorten it, or move the study to a folder nearer to the drive')
+   end subroutine check_names
 
    !> What kind of file a result is
    pure function kind_of(suffix) result(kind)
