@@ -99,7 +99,7 @@ def draw_table(document: Document, one: Subject) -> Any:
     """Moment and lever of a tabulated wall over its rotation, as the steps have them, and the rows of its table."""
     panels = _axes(document, (6.6, 2.8), 2)
     assert isinstance(one.wall, TabulatedWall)
-    terms = Terms(one.wall)
+    terms = Terms(one)
     rotations = np.linspace(0.0, terms.rotation[-1], _POINTS)
     for ax, name in zip(panels, ("M", "S"), strict=True):
         ax.plot(rotations, [1e-3 * terms.at(name, rotation) for rotation in rotations], color=_DARK)

@@ -5,6 +5,7 @@ module dondolo_case_wall_warnings
    use dondolo_base_property, only : find_property, hint_of, property_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_warning, only : warning_type, warnings_type
+   use dondolo_case_chain_warnings, only : chain_warnings_type
    use dondolo_case_elastic_warnings, only : elastic_warnings_type
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
@@ -57,6 +58,8 @@ module dondolo_case_wall_warnings
       type(odd_walls_type), allocatable :: odd(:, :)
       !> Strips with a period, beside their records and damage states
       type(elastic_warnings_type) :: elastic
+      !> Chains
+      type(chain_warnings_type) :: chains
    contains
       !> Look at a wall
       procedure :: look
@@ -79,6 +82,7 @@ contains
       density = find_property(wall_properties, 'density')
       self%walls = self%walls + 1
       call self%elastic%look(wall)
+      call self%chains%look(wall)
       do i = 1, size(wall_properties)
          ! No overburden is no mistake: the least positive value
          call wall%input%find_range(i, low, high)
@@ -182,6 +186,7 @@ contains
 
       if (present(records)) call self%elastic%warn_of_records(records, warnings)
       if (present(thresholds)) call self%elastic%warn_of_thresholds(thresholds, warnings)
+      call self%chains%warn(self%walls, warnings)
       if (.not. allocated(self%odd)) return
       do i = 1, size(wall_properties)
          call warn_of_value(self, i, wall_properties(i), warnings)
