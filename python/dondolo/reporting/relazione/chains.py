@@ -111,9 +111,11 @@ def _bodies(document: Document, one: Subject, name: str) -> CaptionedTable:
 
 def _joints(document: Document, wall: Chain, name: str) -> CaptionedTable:
     """Hinges and guides."""
+    stands = bool((wall._rows("body_table")[:, 0] == 0.0).any())
+    still = document.text(_("ground, or masonry that stands still") if stands else _("ground"))
 
     def body(value: float) -> str:
-        return document.text(_("ground")) if value == 0.0 else document.text(_("body {count}"), count=int(value))
+        return still if value == 0.0 else document.text(_("body {count}"), count=int(value))
 
     rows = wall._rows("joint_table")
     kinds = [
@@ -146,8 +148,8 @@ def _actions(document: Document, wall: Chain, name: str) -> list[CaptionedTable]
         if row[6] > 0.0:
             return document.text(_("mass that is pushed"))
         moved = (
-            _("its mass moves with it both ways") if row[5] > 0.0
-            else _("its mass is lifted") if row[4] > 0.0
+            _("with its mass, pushed and lifted") if row[5] > 0.0
+            else _("with its mass, lifted alone") if row[4] > 0.0
             else _("force without mass")
         )  # fmt: skip
         return document.text(moved) + (f", {document.text(_('held sideways'))}" if row[9] > 0.0 else "")
@@ -224,22 +226,35 @@ def draw_chain(document: Document, one: Subject) -> Any:
             ax.plot(x, y, linestyle="none", marker=marker, markersize=5, color=_DARK, zorder=5)
         ax.set_aspect("equal")
         ax.axis("off")
-        ax.autoscale_view()
-        ax.margins(0.16)
     at = wall.motion(0.0)
     for count, (x, y) in enumerate(zip(at.x, at.y, strict=True), 1):
         ring = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": _DARK, "linewidth": 0.7}
         rest.annotate(str(count), (x, y), ha="center", va="center", fontsize=_WORDS, bbox=ring)
     _arrows(document, rest, wall)
+    low, high = _limits(wall, rotation)
+    for ax in (rest, moved):
+        ax.set_xlim(low[0], high[0])
+        ax.set_ylim(low[1], high[1])
     rest.set_title(document.text(_("at rest")), fontsize=_TITLES)
     moved.set_title(document.text(_("displaced, not to scale")), fontsize=_TITLES)
     return rest
 
 
+def _limits(wall: Chain, rotation: float) -> tuple[FloatArray, FloatArray]:
+    """Corners of what is drawn at rest and displaced, with room for loads and their words."""
+    points = [corners for q in (0.0, rotation) for _body, _is_opening, corners in wall.outlines(rotation=q)]
+    points += [np.array([(-row[3], row[4])]) for row in wall._rows("joint_table")]
+    points += [np.array([(-row[1], row[2])]) for row in wall._rows("action_table")]
+    at = wall.motion(0.0)
+    found = np.vstack([*points, np.column_stack([at.x, at.y])])
+    low, high = found.min(axis=0), found.max(axis=0)
+    room = 0.16 * float(max(high - low))
+    return low - room, high + room * np.array([1.6, 1.2])
+
+
 def _arrows(document: Document, ax: Any, wall: Chain) -> None:
     """Loads, masses and thrusts on a chain at rest."""
-    low, high = ax.get_ylim()
-    size = 0.09 * (high - low)
+    size = 0.12 * max(wall.height, 1.0)
     for item, row in named_actions(wall):
         word, _blank, count = item.partition(" ")
         force = row[3] or row[7] or row[6] * wall.gravity
@@ -253,5 +268,3 @@ def _arrows(document: Document, ax: Any, wall: Chain) -> None:
         start = (x - size * np.cos(angle), y - size * np.sin(angle))
         ax.annotate("", (x, y), start, arrowprops=_ARROW, zorder=6)
         ax.annotate(words, start, (4, 3), textcoords="offset points", fontsize=_WORDS)
-        ax.update_datalim([start, (start[0] + 4.0 * size, start[1] + 0.4 * size)])
-    ax.autoscale_view()

@@ -283,6 +283,8 @@ def modelling(document: Document) -> list[Block]:
     walls = [one.wall for one in document.subjects.several]
     for name, one in document.each():
         words = _mechanism(document, one.wall.mechanism)
+        if parts_of(one.wall, "wedges"):
+            words = document.text(_("compound overturning outwards, with wedges of the transverse walls"))
         height = quantity(one.wall.height, UNITS["m"])
         if isinstance(one.wall, (TabulatedWall, Chain)):
             sentence = _("{wall}: {mechanism}, height {height}.")

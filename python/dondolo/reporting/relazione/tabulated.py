@@ -179,8 +179,9 @@ def table_steps(document: Document, one: Subject) -> list[Block]:
     words = (
         _(
             "At {d0} the moment {moment} of all that holds and pushes the chain vanishes. The positions of the bodies"
-            " at a displacement {d} = Σ P d_x Δx/Σ P d_x follow from the joints, with the rotation {theta} of the body"
-            " that drives; {lever} = Σ P x' is how fast the weights move outwards there:"
+            " at a displacement {d} = Σ {weight} {first} Δx/Σ {weight} {first} follow from the joints, with the"
+            " rotation {theta} of the body that drives; {lever} = Σ {weight} x' is how fast the weights move"
+            " outwards there:"
         )
         if is_chain
         else _(
@@ -190,7 +191,7 @@ def table_steps(document: Document, one: Subject) -> list[Block]:
     )
     names = {"d0": symbol_of("d_0*"), "moment": symbol_of("M"), "d": symbol_of("d"), "theta": theta}
     if is_chain:
-        names["lever"] = symbol_of("S")
+        names |= {"lever": symbol_of("S"), "weight": symbol_of("P"), "first": symbol_of("d_x")}
     caption = document.text(
         _("Terms of the chain, multiplier and capacity a = α g/(e* FC).")  # noqa: RUF001
         if is_chain

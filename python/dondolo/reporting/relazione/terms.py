@@ -283,8 +283,8 @@ WARNINGS = {
     " per lo SLO non c'è una formula per i meccanismi locali",
     "slides_first": "{item}: scorre prima di ruotare, perché con un attrito {friction} non ha quello necessario"
     " all'attivazione, {friction_needed}, per il moltiplicatore {alpha_0}",
-    "sliding_unknown": "le forze alle cerniere di una tabella o di una catena cinematica non sono note: non si verifica se"
-    " scorrono prima di ruotare",
+    "sliding_unknown": "le forze alle cerniere di una tabella o di una catena cinematica non sono note: non si"
+    " verifica se scorrono prima di ruotare",
     "friction_not_given": "{item}: per ruotare e non scorrere serve all'attivazione un attrito {friction_needed}; non"
     " si verifica se c'è, perché l'attrito non è assegnato",
     "perhaps_free": "la parete comincia sopra il suolo o finisce sopra l'edificio, e non la trattengono né catene né"

@@ -151,6 +151,8 @@ contains
       call add_actions(chain%actions)
       call add_actions(masonry%standing)
       bound = cone_ratio(masonry%parts, contacts, attached, before)
+      ! A velocity that vanishes but for rounding
+      if (bound < near) bound = 0.0_wp
 
    contains
 

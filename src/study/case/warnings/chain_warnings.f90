@@ -81,7 +81,8 @@ contains
       if (self%mirrored > 0) then
          warning = warning_type(mirror_image)
          call add(warning, self%mirrored_name, self%mirrored, 'inwards it is taken to move as its mirror image, but its '// &
-            & 'tables do not show that the masonry and its loads are one: add what stands still as body 0, or give two walls of one facade')
+            & 'tables do not show that the masonry and its loads are one: add what stands still as body 0, or give '// &
+            & 'two walls of one facade')
       end if
       if (self%meeting > 0) then
          warning = warning_type(bodies_meet)
