@@ -92,7 +92,7 @@ def test_the_steps_from_the_positions_give_the_check(strip):
 
 def test_masonry_that_stands_still(executable, root, tmp_path):
     """An arch on piers of which one stands still; its impact has an upper bound."""
-    chain = dd.arch(1.75, 0.5, 180.0, 8, pier=(1.0, 3.5), density=1900.0, sides=1, restitution_value=0.7)
+    chain = dd.arch(1.75, 0.5, 180.0, voussoirs=8, pier=(1.0, 3.5), density=1900.0, sides=1, restitution_value=0.7)
     chain.write_tables(tmp_path / "arch")
     wall = (
         "name = 'arch', mechanism = 'chain', height = 5.5, sides = 1, restitution_value = 0.7,"

@@ -149,7 +149,8 @@ def chain_facts(wall: Handle) -> ChainFacts:
     """What is known of the sides and of the impact of a chain."""
     numbers, failure = _core.walls.chain_facts(wall.number)
     check(failure)
-    return ChainFacts(*map(float, numbers[:3]), *(bool(number > 0.0) for number in numbers[3:]))
+    outwards, inwards, bound, mirrored, image = map(float, numbers)
+    return ChainFacts(outwards, inwards, bound, mirrored > 0.0, image > 0.0)
 
 
 def bending_period(wall: Handle, modulus: float) -> float:

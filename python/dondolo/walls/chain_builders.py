@@ -30,8 +30,8 @@ def horizontal_bending(
     length: float,
     thickness: float,
     density: float,
-    thrust: float,
     *,
+    thrust: float,
     sides: float,
     restitution_value: float,
     compressive_strength: float | None = None,
@@ -85,7 +85,7 @@ def horizontal_bending(
     Examples
     --------
     >>> import dondolo as dd
-    >>> band = dd.horizontal_bending(4.0, 0.45, 1900.0, 25e3, hinge_depth=0.01, sides=2, restitution_value=0.74)
+    >>> band = dd.horizontal_bending(4.0, 0.45, 1900.0, thrust=25e3, hinge_depth=0.01, sides=2, restitution_value=0.74)
     >>> float(band._rows("joint_table")[1, 4])
     2.0
     """
@@ -188,8 +188,8 @@ def arch(
     radius: float,
     thickness: float,
     embrace: float,
-    voussoirs: int,
     *,
+    voussoirs: int,
     density: float,
     sides: float,
     restitution_value: float,
@@ -250,7 +250,7 @@ def arch(
     The arch of Oppenheim (1992):
 
     >>> import dondolo as dd
-    >>> ring = dd.arch(10.0, 1.5, 157.5, 7, density=2400.0, sides=2, restitution_value=0.7)
+    >>> ring = dd.arch(10.0, 1.5, 157.5, voussoirs=7, density=2400.0, sides=2, restitution_value=0.7)
     >>> round(ring.impact_bound, 3)
     0.748
     """

@@ -226,7 +226,7 @@ contains
    end function find_quantity
 
    !> Add a line
-   pure subroutine add(self, method, state, name, value, formula, item, working, unit)
+   pure subroutine add(self, method, state, name, value, formula, item, working)
       class(sheet_type), intent(inout) :: self
       !> Part of the check, limit state, and name of the quantity
       character(len=*), intent(in) :: method, state, name
@@ -238,8 +238,6 @@ contains
       character(len=*), intent(in), optional :: item
       !> Its formula; absent: it has none
       type(working_type), intent(in), optional :: working
-      !> Its unit; absent: that of the quantity
-      character(len=*), intent(in), optional :: unit
 
       type(sheet_row_type) :: row
       integer :: at
@@ -249,7 +247,6 @@ contains
       row%quantity%name = name
       at = find_quantity(name)
       if (at > 0) row%quantity = quantities(at)
-      if (present(unit)) row%quantity%unit = unit
       row%value = value
       if (present(formula)) row%formula = formula
       if (present(item)) row%item = item

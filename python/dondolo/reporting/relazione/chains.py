@@ -226,8 +226,8 @@ def draw_chain(document: Document, one: Subject) -> Any:
             ax.plot(x, y, linestyle="none", marker=marker, markersize=5, color=_DARK, zorder=5)
         ax.set_aspect("equal")
         ax.axis("off")
-    at = wall.motion(0.0)
-    for count, (x, y) in enumerate(zip(at.x, at.y, strict=True), 1):
+    centres = wall.motion(0.0)
+    for count, (x, y) in enumerate(zip(centres.x, centres.y, strict=True), 1):
         ring = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": _DARK, "linewidth": 0.7}
         rest.annotate(str(count), (x, y), ha="center", va="center", fontsize=_WORDS, bbox=ring)
     _arrows(document, rest, wall)
