@@ -48,6 +48,8 @@ from dondolo.reporting.relazione.writing import calculation_report as calculatio
 from dondolo.reporting.workbook import write_workbook as write_workbook
 from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
+from dondolo.walls.chain_builders import arch as arch
+from dondolo.walls.chain_builders import horizontal_bending as horizontal_bending
 from dondolo.walls.chains import Body as Body
 from dondolo.walls.chains import GivenMass as GivenMass
 from dondolo.walls.chains import Guide as Guide

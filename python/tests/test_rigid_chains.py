@@ -197,12 +197,13 @@ def test_histories(name, engine, chains):
 
 
 def test_a_strip_is_a_two_block_wall():
-    """Every history of a strip, at a hinge of 20 mm and with half of its load lifted."""
-    strip = dd.TwoBlockWall(
-        3.0, 0.25, hinge=0.6, hinge_depth=0.02, overburden=8e3, overburden_inertia=0.5, eccentricity=0.03
-    )
+    """Every history of a strip, at a hinge of 20 mm and with half of its load lifted.
+
+    An eccentric load would change sides with a two_block wall, and not with a chain, whose sides then differ.
+    """
+    strip = dd.TwoBlockWall(3.0, 0.25, hinge=0.6, hinge_depth=0.02, overburden=8e3, overburden_inertia=0.5)
     u, t = 0.02, 0.25
-    top = dd.PointLoad(2, (-0.125 + 0.03, 3.0), 8e3, inertia="vertical", held=True)
+    top = dd.PointLoad(2, (-0.125, 3.0), 8e3, inertia="vertical", held=True)
     numbers = top._row()
     numbers[4] = 0.5
     chain = dd.Chain(

@@ -166,6 +166,22 @@ def test_files_of_an_opened_case_stay_shut(page, tmp_path):
     assert str(secret) not in sent["text"]
 
 
+def test_a_chain_is_refused(page, root):
+    """The page has no form for its tables; it says where a chain runs. Wedges of a facade are drawn."""
+    for name, case in (("portal", root / "data/cases/portal.nml"), ("own", None)):
+        text = case.read_text() if case else "&WALL Mechanism = \"Chain\" /\n&records catalogue = 'x' /"
+        refused = page.post("/open", json={"text": text})
+        assert refused.status_code == 422, name
+        assert "mechanism = 'chain': the page shows walls of one block or two" in refused.json()["error"]
+        assert refused.json()["errors"][0]["code"] == "out_of_range"
+    sent = page.post("/curve", json={"settings": {"wall": {"mechanism": "chain", "height": 3.0}}, "lang": "it"})
+    assert "one block or two" in sent.json()["error"]
+    opened = page.post("/open", json={"text": (root / "data/cases/compound.nml").read_text()}).json()
+    assert len(curve(page, opened["settings"], auto=True)["wall"]["rest"]) == 3
+    words = (Path(dd.__file__).parent / "serve/page/refusals.js").read_text()
+    assert "eseguire le catene di corpi rigidi con dondolo" in words
+
+
 @pytest.mark.parametrize("name", ["tied", "facade", "gable", "parapet_on_building", "facade_strip", "garden_wall"])
 def test_what_is_shown_is_what_the_executable_computes(name, page, root, tmp_path):
     """Median, dispersion, counts and capacities are those of a run of the text on the page, to the bit."""
@@ -218,7 +234,7 @@ def test_other_cases_are_refused_by_name(page, root):
         answer = page.post("/open", json={"text": path.read_text()})
         assert answer.status_code == (200 if path.stem in READY else 422), path.name
         if path.stem not in READY:
-            assert re.search("task = |no file is read", answer.json()["error"]), path.name
+            assert re.search("task = |no file is read|shows walls of one block", answer.json()["error"]), path.name
 
 
 def test_drafts_pins_and_fans(page):

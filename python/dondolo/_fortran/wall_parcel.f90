@@ -21,7 +21,7 @@ module dondolo_wall_parcel
    implicit none
    private
 
-   public :: set_positions, set_walls, walls_parcel_type
+   public :: set_facts, set_positions, set_walls, walls_parcel_type
 
    !> Lines in one text: many of them would each be a thing of its own
    type :: block_type
@@ -141,9 +141,23 @@ contains
             call set_at_rest(model%chain, motion)
             call walk_to(model%chain, rotation(i), motion, is_there)
             if (is_there) positions(:, :, i) = motion%y
+            ! A chain that is seen from behind
+            if (is_there .and. model%is_inward) positions([1, 3], :, i) = -positions([1, 3], :, i)
          end do
       end select
    end subroutine set_positions
+
+   !> Take what is known of the sides and of the impact of a chain
+   subroutine set_facts(wall, facts)
+      type(wall_type), intent(in) :: wall
+      !> As chain_facts has them
+      real(c_double), intent(inout) :: facts(5)
+
+      select type (model => wall%model)
+      type is (chain_model_type)
+         facts = [model%multiplier, model%bound, merge(1.0_c_double, 0.0_c_double, [model%is_mirrored, model%is_image])]
+      end select
+   end subroutine set_facts
 
    !> Pack a wall as it was understood
    subroutine add_wall(self, wall)

@@ -12,13 +12,13 @@ module walls
    use dondolo_population_table, only : population_table_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_parcel, only : set_positions, set_walls, walls_parcel_type
+   use dondolo_wall_parcel, only : set_facts, set_positions, set_walls, walls_parcel_type
    use dondolo_wall_strip_bending, only : pinned_period
    use dondolo_wall_tie_statics, only : ties_after
    implicit none
    private
 
-   public :: new_walls, describe_walls, wall_terms, chain_motion, bending_period, tie_states, open_anchors, tally_ties
+   public :: new_walls, describe_walls, wall_terms, chain_motion, chain_facts, bending_period, tie_states, open_anchors, tally_ties
    public :: read_walls
 
 contains
@@ -132,6 +132,21 @@ contains
       end if
       call report(error, failure)
    end subroutine chain_motion
+
+   !> Multipliers of a chain outwards and inwards and bound of its restitution, huge if they are not known; 1: it moves inwards as
+   !> its mirror image, and 1: its masonry is one
+   subroutine chain_facts(walls, facts, failure)
+      integer(c_int64_t), intent(in) :: walls
+      real(c_double), intent(out) :: facts(5)
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(error_type), allocatable :: error
+
+      facts = 0
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call set_facts(wall(1), facts)
+      call report(error, failure)
+   end subroutine chain_facts
 
    !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest
    !> rotations / capacity

@@ -125,6 +125,34 @@ def chain_motion(wall: Handle, rotation: ArrayLike, bodies: int) -> FloatArray:
     return found
 
 
+class ChainFacts(NamedTuple):
+    """What is known of the sides and of the impact of a chain.
+
+    Attributes
+    ----------
+    outwards, inwards : float
+        Multipliers; huge if it moves to one side, or inwards as its mirror image.
+    bound : float
+        Upper bound of the restitution; huge if it is not known.
+    is_mirrored, is_image : bool
+        Whether it moves inwards as its mirror image, and whether all of its masonry is one.
+    """
+
+    outwards: float
+    inwards: float
+    bound: float
+    is_mirrored: bool
+    is_image: bool
+
+
+def chain_facts(wall: Handle) -> ChainFacts:
+    """What is known of the sides and of the impact of a chain."""
+    numbers, failure = _core.walls.chain_facts(wall.number)
+    check(failure)
+    outwards, inwards, bound, mirrored, image = map(float, numbers)
+    return ChainFacts(outwards, inwards, bound, mirrored > 0.0, image > 0.0)
+
+
 def bending_period(wall: Handle, modulus: float) -> float:
     """Period of a strip between pinned ends [s], of a modulus of elasticity [Pa]; huge if its load buckles it."""
     period, failure = _core.walls.bending_period(wall.number, modulus)

@@ -39,6 +39,7 @@ from dondolo.reporting.statuses import status_table
 from dondolo.reporting.units import UNITS, Unit
 from dondolo.walls.chains import TABLES, Chain
 from dondolo.walls.mechanisms import TERMS, TabulatedWall
+from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
@@ -57,6 +58,11 @@ DRAWN = 24
 _ACROSS = 8
 # What a table of records says of each
 _DESCRIBED = ("event", *RECORD_FACTS)
+
+
+def mechanism_of(wall: Wall) -> str:
+    """The mechanism of a wall in words: with wedges of transverse walls its overturning is compound."""
+    return say("compound overturning") if parts_of(wall, "wedges") else mechanism_name(wall.mechanism)
 
 
 def inputs(run: Run) -> dict[str, Any]:
@@ -141,7 +147,7 @@ def walls(run: Run) -> dict[str, Any]:
 def _wall_facts(run: Run) -> Facts:
     """Properties and statics of the one wall."""
     wall = run.population.walls[0]
-    pairs: Facts = [(say("name"), wall.name), (say("mechanism"), mechanism_name(wall.mechanism))]
+    pairs: Facts = [(say("name"), wall.name), (say("mechanism"), mechanism_of(wall))]
     for row in WALL_PROPERTIES[2:]:
         if row.name in TERMS or row.name in TABLES:
             continue

@@ -321,7 +321,7 @@ def _lead(run: Run) -> str:
     if run.uncertain is not None:
         everything, many = run.uncertain.typology.walls, len(run.uncertain.sample)
         wall, names = everything[many], ", ".join(say(name.replace("_", " ")) for name in run.uncertain.sources)
-        words = {"wall": wall.name, "mechanism": mechanism_name(wall.mechanism), "names": names}
+        words = {"wall": wall.name, "mechanism": inputs.mechanism_of(wall), "names": names}
         parts.append(say("{wall}: {mechanism}, its {names} uncertain", **words))
         parts.append(say("{variants} variants, and {others} beside them", variants=many, others=len(everything) - many))
     elif run.designs is not None and isinstance(results, Typology):
@@ -347,7 +347,7 @@ def _lead(run: Run) -> str:
                 ", {without} of them of weight 0 and in no curve of the population", without=walls - counted
             )
     else:
-        parts.append(f"{results.wall.name}: {mechanism_name(results.wall.mechanism)}")
+        parts.append(f"{results.wall.name}: {inputs.mechanism_of(results.wall)}")
     if isinstance(results, Response):
         parts.append(
             say("one motion under {record}, scale {scale:.4g}", record=results.record.name, scale=results.scale)

@@ -54,6 +54,8 @@ _GROUPS = ("job", "wall", "building", "records", "stripes", "solver", "check")
 # Variables that give the levels
 _OF_LEVELS = ("levels", "first", "last", "count")
 
+# A case of a chain of rigid bodies
+_CHAIN = re.compile(r"""^[^!\n]*\bmechanism\s*=\s*(['"])chain\1""", re.MULTILINE | re.IGNORECASE)
 # What follows from a property of a wall that is given
 _FOLLOWS = {"section_height": "height", "section_thickness": "thickness", "restitution_value": "restitution"}
 
@@ -127,6 +129,8 @@ class Bench:
 
     def _opened(self, text: str) -> Case:
         """A case, with the vertical components of the catalogue where it takes them."""
+        if _CHAIN.search(text):
+            raise chain_of_bodies()
         try:
             return dd.results.Case.from_text(text, self.records)
         except InputError as error:
@@ -171,6 +175,8 @@ class Bench:
         """
         begin, language = time.perf_counter(), _language(asked.get("lang", "en"))
         settings, is_draft = groups_of(asked.get("settings")), bool(asked.get("draft"))
+        if settings.get("wall", {}).get("mechanism") == "chain":
+            raise chain_of_bodies()
         with self._lock:
             if asked.get("auto"):
                 settings = self._with_levels(settings, stop)
@@ -372,6 +378,12 @@ def refusal(error: DondoloError) -> dict[str, Any]:
             }
         )
     return {"error": str(error), "errors": errors}
+
+
+def chain_of_bodies() -> InputError:
+    """The refusal of a chain, whose tables the page does not read."""
+    sentence = "mechanism = 'chain': the page shows walls of one block or two; run this case with dondolo"
+    return InputError(sentence, errors=[Problem(sentence, "out_of_range", "mechanism", "&wall")])
 
 
 def other_task(case: Case) -> InputError:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, InitVar, dataclass
+from pathlib import Path
 from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, argument_error, as_number, as_path, one_of, wrong_type
-from dondolo._fortran.walls import chain_motion
+from dondolo._fortran.walls import chain_facts, chain_motion
 from dondolo._storage.saved import part_of_results
+from dondolo.walls.chain_tables import write_tables
 from dondolo.walls.wall import DEFAULT, Wall, upload
 
 # Numbers of a row of each table
@@ -143,6 +145,9 @@ class Body:
     ----------
     parts : sequence of Part, Sector or GivenMass
         Its parts.
+    stands : bool, optional
+        Whether it stands still in this mechanism, such as the left pier of a portal that sways to the right. It is then
+        body 0, and is not counted among the others.
 
     Examples
     --------
@@ -153,6 +158,8 @@ class Body:
     """
 
     parts: Sequence[Part | Sector | GivenMass]
+    _: KW_ONLY
+    stands: bool = False
 
     def __post_init__(self) -> None:
         for part in self.parts:
@@ -232,7 +239,7 @@ class PointLoad:
     Parameters
     ----------
     body : int
-        Number of the body, from 1.
+        Number of the body, from 1; 0: one that stands still.
     at : tuple
         Where it rests (x, y) [m].
     force : float
@@ -361,7 +368,8 @@ class Chain(Wall):
     Parameters
     ----------
     bodies : str, path or sequence of Body, optional
-        CSV file of the rigid bodies, or the bodies. At most 8.
+        CSV file of the rigid bodies, or the bodies. At most 8 that move; they are numbered from 1, without those that
+        stand still.
     joints : str, path or sequence of Pin or Guide, optional
         CSV file of the hinges and guides between them, or the joints. A pin has two equations, a guide one; n bodies
         need 3 n - 1.
@@ -385,11 +393,13 @@ class Chain(Wall):
     ------
     InputError
         Joints that leave more or less than one degree of freedom, or depend on one another; bodies that overlap; a
-        hinge on the side on which its joint closes; a chain that does not stand at rest.
+        hinge on the side on which its joint closes; a chain that does not stand at rest; two sides whose multipliers or
+        capacities differ by more than 2 %.
 
     Notes
     -----
-    The chain moves outwards, towards +x. With `sides=2` it moves inwards as its mirror image.
+    The chain moves outwards, towards +x. With `sides=2` it moves inwards too: if all joints are horizontal they open at
+    their other ends, and the terms of the lesser multiplier are used for both; if not, as its mirror image.
 
     Examples
     --------
@@ -442,8 +452,14 @@ class Chain(Wall):
         """Largest distance of a sampled term from the polynomial that is computed with / largest value."""
         return self._static(11)
 
+    @property
+    def impact_bound(self) -> float:
+        """Restitution that an impact on all joints leaves, an upper bound without sliding; NaN if not all are known."""
+        bound = chain_facts(upload((self,))).bound
+        return bound if bound <= 1.0 else float("nan")
+
     def motion(self, rotation: ArrayLike) -> ChainMotion:
-        """Positions of the bodies at given rotations.
+        """Positions of the bodies at given rotations, on the side whose terms are used.
 
         Parameters
         ----------
@@ -501,8 +517,41 @@ class Chain(Wall):
             found.append((body, is_opening, self._moved(corners, body, rotation)))
         return found
 
+    def write_tables(self, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
+        """Write the files of its bodies, joints and actions, for a case or a table of walls.
+
+        Parameters
+        ----------
+        prefix : str or path
+            What their names begin with: `arch` gives `arch_bodies.csv`, `arch_joints.csv` and `arch_actions.csv`, the
+            last only if something acts on it. Files of these names are replaced.
+
+        Returns
+        -------
+        tuple of Path
+            The files that were written.
+
+        Raises
+        ------
+        InputError
+            A part of a load other than those that words have.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> block = dd.Body([dd.GivenMass(1350.0, (-0.125, 1.5), 1019.53125)])
+        >>> chain = dd.Chain(
+        ...     height=3.0, bodies=[block], joints=[dd.Pin(1, 0, (0.0, 0.0))], sides=1, restitution_value=0.48
+        ... )
+        >>> [path.name for path in chain.write_tables("block")]
+        ['block_bodies.csv', 'block_joints.csv']
+        """
+        return write_tables(self, prefix)
+
     def _moved(self, points: ArrayLike, body: int, rotation: float) -> FloatArray:
         """Points of a body at a rotation."""
+        if body == 0:
+            return np.asarray(points, dtype=np.float64)
         rest, now = self.motion(0.0), self.motion(rotation)
         k = body - 1
         offset = np.asarray(points) - [rest.x[k], rest.y[k]]
@@ -553,11 +602,11 @@ def _point(name: str, at: Any) -> Point:
 
 
 def _flat_bodies(bodies: Sequence[Body]) -> list[float]:
-    """Rows of bodies, one after the other."""
-    return [
-        float(number)
-        for i, body in enumerate(bodies, 1)
-        for k, part in enumerate(body.parts, 1)
-        for row in part._rows()
-        for number in (i, k, *row)
-    ]
+    """Rows of bodies, one after the other: those that stand still are one, of number 0."""
+    found, moving, standing = [], 0, 0
+    for body in bodies:
+        moving += not body.stands
+        for k, part in enumerate(body.parts, 1 + standing * body.stands):
+            found += [float(number) for row in part._rows() for number in (0 if body.stands else moving, k, *row)]
+        standing += len(body.parts) * body.stands
+    return found

@@ -1,6 +1,6 @@
 !> The sums behind a kinematic check, item by item, so that they can be made again by hand: of a wall that turns about its base its
 !> storeys, wedges of transverse walls, loads, masses, thrusts and ties; of a strip that bends its two blocks, the load on top, and
-!> what acts between.
+!> what acts between; of a chain its bodies and what acts on them.
 !>
 !> A unit of rotation lifts an item by its arm and moves it outwards by its lever:
 !>
@@ -13,6 +13,9 @@ module dondolo_check_calculation
    use dondolo_base_text, only : to_text
    use dondolo_wall, only : wall_type
    use dondolo_wall_body, only : wall_body_type
+   use dondolo_wall_chain, only : chain_type, motion_type, point_motion
+   use dondolo_wall_chain_model, only : chain_model_type
+   use dondolo_wall_chain_terms, only : set_at_rest
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_rigid_body, only : body_of_sections, rigid_body_type, same
    use dondolo_wall_tabulated_model, only : tabulated_model_type
@@ -30,7 +33,7 @@ module dondolo_check_calculation
    !> Value of a number that an item does not have
    real(wp), parameter :: none = -huge(1.0_wp)
 
-   !> A term of the sums, per metre of wall
+   !> A term of the sums, per metre of wall; of a chain whole
    type :: item_type
       !> Name
       character(len=24) :: name = ''
@@ -69,10 +72,77 @@ contains
             call list_blocks(items, mechanism)
             call list_points(items, mechanism, model, wall%gravity)
          end select
+      type is (chain_model_type)
+         call list_chain(items, model%chain)
       class is (tabulated_model_type)
          call list_bodies(items, model, wall%mechanism%moment(0.0_wp))
       end select
    end subroutine list_items
+
+   !> List the bodies of a chain and what acts on them. A vertical share c of gravity lifts a weight by c y'
+   subroutine list_chain(items, chain)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(chain_type), intent(in) :: chain
+
+      type(motion_type) :: motion
+      type(item_type) :: item
+      real(wp) :: place(2), rate(2), second(2)
+      integer :: i, loads, masses, thrusts
+
+      call set_at_rest(chain, motion)
+      do i = 1, size(chain%bodies)
+         items = [items, weight_of('body '//to_text(i), chain%gravity*chain%bodies(i)%mass, motion%rate(:2, i))]
+      end do
+      loads = 0
+      masses = 0
+      thrusts = 0
+      do i = 1, size(chain%actions)
+         associate (action => chain%actions(i))
+            call point_motion(chain, motion, action%body, action%at, place, rate, second)
+            if (action%weight > 0.0_wp) then
+               loads = loads + 1
+               item = weight_of('load '//to_text(loads), action%weight, rate)
+               if (action%is_held) then
+                  item%lever = none
+                  item%first = none
+                  item%second = none
+               end if
+            else if (action%pushed > 0.0_wp) then
+               masses = masses + 1
+               item = weight_of('mass '//to_text(masses), chain%gravity*action%pushed, rate)
+               item%arm = none
+               item%stabilising = none
+            else
+               thrusts = thrusts + 1
+               item = item_type('thrust '//to_text(thrusts), norm2(action%thrust))
+               item%lever = sum(action%thrust*rate)/item%force
+               ! A thrust that the mechanism pushes back holds it.
+               if (item%lever >= 0.0_wp) then
+                  item%overturning = item%force*item%lever
+               else
+                  item%stabilising = -item%force*item%lever
+               end if
+            end if
+            items = [items, item]
+         end associate
+      end do
+
+   contains
+
+      !> A weight: what it rises and how far it moves outwards
+      pure function weight_of(name, force, rate) result(item)
+         character(len=*), intent(in) :: name
+         !> [N], and velocity for a unit of rotation [m]
+         real(wp), intent(in) :: force, rate(2)
+         type(item_type) :: item
+
+         associate (rise => chain%gravity_share*rate(2), moved => rate(1))
+            item = item_type(name, force, arm=rise, lever=moved, stabilising=force*rise, first=force*moved, &
+               & second=force*moved**2)
+         end associate
+      end function weight_of
+
+   end subroutine list_chain
 
    !> List bodies and loads of a tabulated wall, and its moment, in which all that holds it and pushes it is one
    subroutine list_bodies(items, model, moment)

@@ -93,7 +93,7 @@ contains
       integer :: i
 
       if (.not. sheet%value('mechanism', '', 'friction_needed') >= 0.0_wp) call notes%add(warning_type(sliding_unknown), &
-         & 'a table does not have the forces at the hinges: whether they slide before they turn is not checked')
+         & 'the forces at the hinges of a table or a chain are not known: whether they slide before they turn is not checked')
       friction = sheet%value('mechanism', '', 'friction')
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))

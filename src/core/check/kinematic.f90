@@ -35,6 +35,7 @@ module dondolo_check_kinematic
    use dondolo_check_free_element, only : free_element_type, new_free_element
    use dondolo_check_table_check, only : new_table_check, table_check_type
    use dondolo_wall, only : wall_type
+   use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_body, only : wall_body_type
    use dondolo_wall_elastic_joint, only : elastic_joint_type
@@ -55,8 +56,10 @@ module dondolo_check_kinematic
    type :: kinematic_type
       !> Multiplier that starts the mechanism alpha_0
       real(wp) :: multiplier = 0.0_wp
-      !> Mass that takes part M* [kg/m]
+      !> Mass that takes part M* [kg/m], of a wall whose quantities are those of the whole [kg]
       real(wp) :: mass = 0.0_wp
+      !> Are its quantities those of the whole, not per metre?
+      logical :: is_whole = .false.
       !> The same / the whole mass, e*
       real(wp) :: mass_ratio = 0.0_wp
       !> Displacement at which the multiplier vanishes d_0 [m]
@@ -278,6 +281,10 @@ contains
       first = sum(model%weight*model%displacement)
       second = sum(model%weight*model%displacement**2)
       kinematic%weight = sum(model%weight)
+      select type (model)
+      type is (chain_model_type)
+         kinematic%is_whole = .true.
+      end select
       kinematic%mass = first**2/second/kinematic%gravity
       kinematic%mass_ratio = first**2/(kinematic%weight*second)
    end subroutine take_table

@@ -162,6 +162,7 @@ contains
       if (kinematic%wedge_first > 0.0_wp) call put_bare_facade(sheet, kinematic)
       call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5', working=working_type('(sum P z)^2/(g sum P z^2)', &
          & trim(shown(kinematic%first))//'^2/('//times(kinematic%gravity, kinematic%second)//')'))
+      if (kinematic%is_whole) sheet%rows(size(sheet%rows))%quantity%unit = 'kg'
       call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5', working=working_type('g M*/sum P', &
          & times(kinematic%gravity, kinematic%mass)//'/'//shown(kinematic%weight)))
       call put_activation(sheet, 'mechanism', '', kinematic, input%knowledge_factor)

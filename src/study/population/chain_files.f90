@@ -115,7 +115,13 @@ contains
          values = 0.0_wp
          do i = 1, size(columns)
             if (at(i) == 0) cycle
-            if (len(row%get_text(at(i))) == 0) cycle
+            if (len(row%get_text(at(i))) == 0) then
+               ! Body 0 stands still, so that it must be said which it is.
+               if (columns(i) /= 'body') cycle
+               call raise_input(error, 'body: must be given in each row', not_given, 'body')
+               call add_place(error, table%place(row))
+               return
+            end if
             if (is_word(columns(i))) then
                call take_word(trim(columns(i)), row%get_text(at(i)), values(i), error)
             else

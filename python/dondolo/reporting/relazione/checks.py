@@ -13,6 +13,7 @@ from dondolo.reporting.blocks import Block, CaptionedTable, Heading, Note, Pictu
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, chance, number, whole
 from dondolo.reporting.relazione.capacity import capacity_of, displacement_of, end_of, shown
+from dondolo.reporting.relazione.chains import scheme
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_capacity, draw_floor, draw_table, draw_wall
 from dondolo.reporting.relazione.floors import building_in, demand_of, peak_of
@@ -31,6 +32,7 @@ from dondolo.reporting.relazione.sums import (
 )
 from dondolo.reporting.relazione.tabulated import table_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
+from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
@@ -71,6 +73,9 @@ def mechanism(document: Document) -> list[Block]:
                 )
             )
             blocks += table_of(document, one)
+            continue
+        if isinstance(one.wall, Chain):
+            blocks += scheme(document, one, name)
             continue
         blocks.append(
             Picture(
@@ -219,7 +224,7 @@ def _chance(found: Chance | None) -> Piece:
 def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     """The items with their sums, so that the multiplier can be made again by hand."""
     items, turns = one.check.items, one.is_turning
-    force, moment, second = UNITS["N/m"], UNITS["N m/m"], UNITS["N m2/m"]
+    force, moment, second = (UNITS[f"{unit}{one.per}"] for unit in ("N", "N m", "N m2"))
 
     def column(field: str, unit: Unit, figures: int = FIGURES) -> list[Piece]:
         values = [getattr(item, field) for item in items]
@@ -231,7 +236,7 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     counted = f" ({document.text(_('counted above'))})"
     names = [document.item(item.item) + (counted if item.item == "masonry" else "") for item in items]
     columns: dict[Piece, list[Piece]] = {document.text(_("item")): names}  # type: ignore[dict-item]
-    forces = (symbol_of("P"), ", ", symbol_of("H"), ", ", symbol_of("T"), " [kN/m]")
+    forces = (symbol_of("P"), ", ", symbol_of("H"), ", ", symbol_of("T"), f" [{force.name}]")
     columns[forces] = [
         ("(", value, ")") if item.item == "masonry" else value
         for item, value in zip(items, column("force", force), strict=True)
@@ -247,12 +252,12 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
             "" if math.isnan(item.depth) else shown(item.depth - hinge, UNITS["m"]) for item in items
         ]
     columns[(symbol_of(lever), " [m]")] = column("lever", UNITS["m"])
-    stab, over = document.text(_("stabilising [kNm/m]")), document.text(_("overturning [kNm/m]"))
+    stab, over = (f"{document.text(words)} [{moment.name}]" for words in (_("stabilising"), _("overturning")))
     columns[stab] = column("stabilising", moment)
-    if turns or sums["thrust"]:
+    if turns or sums["overturning"]:
         columns[over] = column("overturning", moment)
-    product = (symbol_of("P"), " ", symbol_of(lever), " [kNm/m]")
-    square = (symbol_of("P"), " ", symbol_of(lever), "² [kNm²/m]")
+    product = (symbol_of("P"), " ", symbol_of(lever), f" [{moment.name}]")
+    square = (symbol_of("P"), " ", symbol_of(lever), f"² [{second.name}]")
     columns[product] = column("force_lever", moment)
     columns[square] = column("force_lever2", second)
     pushes = sums["weight"] > sums["carried"] and turns
@@ -266,7 +271,12 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     }
     for place, (head, cells) in enumerate(columns.items()):
         cells.append(document.text(_("sum")) if not place else ends.get(head, ""))
-    caption = document.titled(document.text(_("Calculation of the multiplier, item by item, per metre of wall")), name)
+    words = (
+        _("Calculation of the multiplier, item by item, per metre of wall")
+        if one.per
+        else _("Calculation of the multiplier, item by item, of the whole chain")
+    )
+    caption = document.titled(document.text(words), name)
     return CaptionedTable(Table.of(columns), caption, strong=1)  # type: ignore[arg-type]
 
 

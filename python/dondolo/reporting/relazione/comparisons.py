@@ -15,6 +15,7 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import Turning, sums_of, turning_of
 from dondolo.reporting.units import UNITS
+from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 
 # T_SLV of a curve of capacity that is a straight line: 1.68 pi sqrt(0.4/0.6)
@@ -91,9 +92,9 @@ def _balance(one: Subject) -> float:
 def _bare_displacement(one: Subject) -> float:
     """Displacement d_0* if the weights alone held the wall, without thrusts: at the control point of the check.
 
-    NaN of a table, whose moment is all that holds it and pushes it.
+    NaN of a table, whose moment is all that holds it and pushes it, and of a chain, whose weights move apart.
     """
-    if isinstance(one.wall, TabulatedWall):
+    if isinstance(one.wall, (TabulatedWall, Chain)):
         return math.nan
     if isinstance(one.wall, TwoBlockWall):
         return one.check.items[0].arm

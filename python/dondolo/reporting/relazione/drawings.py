@@ -99,7 +99,7 @@ def draw_table(document: Document, one: Subject) -> Any:
     """Moment and lever of a tabulated wall over its rotation, as the steps have them, and the rows of its table."""
     panels = _axes(document, (6.6, 2.8), 2)
     assert isinstance(one.wall, TabulatedWall)
-    terms = Terms(one.wall)
+    terms = Terms(one)
     rotations = np.linspace(0.0, terms.rotation[-1], _POINTS)
     for ax, name in zip(panels, ("M", "S"), strict=True):
         ax.plot(rotations, [1e-3 * terms.at(name, rotation) for rotation in rotations], color=_DARK)
@@ -194,7 +194,9 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
             ax.annotate(words, (right + 0.06, z), (4, -8), textcoords="offset points", fontsize=_WORDS)
         elif word in ("section", "wedge"):
             ax.plot(x, z, marker="+", markersize=8, color=_DARK)
-            ax.annotate(words, (right, z), (6, 0), textcoords="offset points", fontsize=_WORDS, va="center")
+            # Wedges are about as high as each other
+            lower = 11 * (int(count) - 1) - 5 if word == "wedge" else 0
+            ax.annotate(words, (right, z), (6, -lower), textcoords="offset points", fontsize=_WORDS, va="center")
         else:
             ax.annotate("", (x, z), (x, z + 0.09 * wall.height), arrowprops=_ARROW)
             ax.annotate(words, (right, z + 0.05 * wall.height), (6, 0), textcoords="offset points", fontsize=_WORDS)

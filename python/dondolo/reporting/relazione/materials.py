@@ -15,6 +15,7 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import of_tie, sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
+from dondolo.walls.chains import Chain
 from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import MasonryWall
 
@@ -62,10 +63,11 @@ def _masonry(document: Document) -> list[_Row]:
     """Of the wall itself."""
     several = document.subjects.several
     walls = [one.wall for one in several]
+    densities = [_densities(one) if isinstance(one, Chain) else number(getattr(one, "density", None)) for one in walls]
     strengths = [getattr(wall, "compressive_strength", None) for wall in walls]
     factors = [one.check.value("mechanism", "SLV", "knowledge_factor") for one in several]
     rows: list[_Row] = [
-        (document.text(_("density [kg/m³]")), "density", [number(getattr(wall, "density", None)) for wall in walls]),
+        (document.text(_("density [kg/m³]")), "density", densities),
         (
             (document.text(_("mean compressive strength at the hinge")), " ", symbol_of("f_m"), " [MPa]"),
             "compressive_strength",
@@ -74,7 +76,10 @@ def _masonry(document: Document) -> list[_Row]:
         (
             (document.text(_("depth of the hinge")), " ", symbol_of("u"), " [cm]"),
             "hinge_depth",
-            [cell(getattr(wall, "base_hinge_depth", None), CENTIMETRES) for wall in walls],
+            [
+                NONE if isinstance(one, Chain) else cell(getattr(one, "base_hinge_depth", None), CENTIMETRES)
+                for one in walls
+            ],
         ),
     ]
     if any(strengths):
@@ -83,6 +88,12 @@ def _masonry(document: Document) -> list[_Row]:
     if given != factors:
         rows.append((document.text(_("confidence factor FC of the level of knowledge")), "", [*map(number, given)]))
     return [*rows, (document.text(_("confidence factor FC of the check")), "knowledge_factor", [*map(number, factors)])]
+
+
+def _densities(wall: Chain) -> Piece:
+    """Densities of the parts of a chain, from the least; a dash if its masses are given."""
+    found = sorted({float(row[4]) for row in wall._rows("body_table") if row[4] > 0.0})
+    return tuple(piece for density in found for piece in ("; ", number(density)))[1:] or NONE
 
 
 def _marked(document: Document, value: Piece, *, is_default: bool) -> Piece:

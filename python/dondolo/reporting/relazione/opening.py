@@ -25,6 +25,7 @@ from dondolo.reporting.relazione.terms import MECHANISMS
 from dondolo.reporting.relazione.ties import open_ties_of
 from dondolo.reporting.tested import sentences
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
+from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import OneSidedWall, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
@@ -282,8 +283,10 @@ def modelling(document: Document) -> list[Block]:
     walls = [one.wall for one in document.subjects.several]
     for name, one in document.each():
         words = _mechanism(document, one.wall.mechanism)
+        if parts_of(one.wall, "wedges"):
+            words = document.text(_("compound overturning outwards, with wedges of the transverse walls"))
         height = quantity(one.wall.height, UNITS["m"])
-        if isinstance(one.wall, TabulatedWall):
+        if isinstance(one.wall, (TabulatedWall, Chain)):
             sentence = _("{wall}: {mechanism}, height {height}.")
             blocks.append(document.say(sentence, wall=name, mechanism=words, height=height))
             continue
@@ -336,6 +339,16 @@ def modelling(document: Document) -> list[Block]:
             " and displacements, and the displacement of the equivalent oscillator with C8.7.1.4."
         )
         blocks.append(document.say(words))
+    if any(isinstance(wall, Chain) for wall in walls):
+        words = _(
+            "A chain is made of rigid bodies with hinges between them, which the designer chooses, and has one degree"
+            " of freedom: the positions of all bodies follow from the joints and from the rotation of one. {alpha}"
+            " follows from virtual work of all weights and forces, {d0} from the finite displacements of the bodies,"
+            " with the mean of C8.7.1.4 over all weights as the control point. No body slides, and no hinge is crushed"
+            " beyond its place. The code does not look for weaker hinges."
+        )
+        blocks.append(document.say(words, alpha=symbol_of("alpha_0"), d0=symbol_of("d_0*")))
+        blocks += document.written("chain_hinges", _("why these hinges are the weakest, and others that were tried"))
     if any(isinstance(wall, OneSidedWall) for wall in walls):
         blocks.append(document.say(_("The calculation assumes that the wall does not turn inwards.")))
         blocks += document.written("inward_rotation", _("why the wall does not turn inwards"))
@@ -399,19 +412,24 @@ def _travels(document: Document) -> tuple[Any, ...]:
 
 def actions(document: Document) -> list[Block]:
     """Chapter 6."""
+    whole = [
+        document.say(
+            _("{wall}: forces are those of the whole chain, heights and depths those of its tables."), wall=name
+        )
+        for name, one in document.each()
+        if not one.per
+    ]
+    if len(whole) == len(document.subjects.several):
+        words = _(
+            "Forces are those of the whole chain. Loads carried are positive downwards; thrusts have their directions"
+            " in the table of actions, heights and depths are those of the tables. In the seismic combination permanent"
+            " loads are increased by the part {psi} of variable ones."
+        )
+        whole = [document.say(words, psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")))]
     return [
         Heading(document.text(_("Actions and seismic combination"))),
-        document.say(
-            _(
-                "Forces are per metre of wall. Loads carried by the wall are positive downwards, thrusts"
-                " outwards, forces of"
-                " ties inwards; heights are above the hinge, depths behind the outer face. Their values are in"
-                " the table of"
-                " the calculation of each wall. In the seismic combination permanent loads are increased by the part"
-                " {psi} of variable ones."
-            ),
-            psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")),
-        ),
+        *whole,
+        *_per_metre(document),
         document.say(
             _(
                 "{p} are the weights that a wall carries, its own among them, {q} those of masses that it pushes"
@@ -426,6 +444,25 @@ def actions(document: Document) -> list[Block]:
         ),
         *document.written("load_analysis", _("analysis of loads of floors and roof")),
         *document.written("combinations", _("combinations of loads, and why they are exhaustive (NTC 10.2.1)")),
+    ]
+
+
+def _per_metre(document: Document) -> list[Block]:
+    """The conventions of walls whose forces are per metre, if there are any."""
+    if not any(one.per for one in document.subjects.several):
+        return []
+    return [
+        document.say(
+            _(
+                "Forces are per metre of wall. Loads carried by the wall are positive downwards, thrusts"
+                " outwards, forces of"
+                " ties inwards; heights are above the hinge, depths behind the outer face. Their values are in"
+                " the table of"
+                " the calculation of each wall. In the seismic combination permanent loads are increased by the part"
+                " {psi} of variable ones."
+            ),
+            psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")),
+        )
     ]
 
 

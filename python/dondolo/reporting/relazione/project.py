@@ -24,6 +24,7 @@ TEXTS = (
     "tests",
     "mechanism",
     "inward_rotation",
+    "chain_hinges",
     "load_analysis",
     "combinations",
     "analysis_reason",

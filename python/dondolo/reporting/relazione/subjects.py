@@ -13,6 +13,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError, Problem
 from dondolo.exchange.results import Results
 from dondolo.reporting.relazione.terms import BENDING
+from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.wall import MasonryWall, Wall
 
@@ -26,7 +27,7 @@ class Subject:
 
     Attributes
     ----------
-    wall : MasonryWall or TabulatedWall
+    wall : MasonryWall, TabulatedWall or Chain
     check : CodeCheck
     curve : Fragility or None
         Of collapse.
@@ -34,13 +35,13 @@ class Subject:
         The run that it is of.
     """
 
-    wall: MasonryWall | TabulatedWall
+    wall: MasonryWall | TabulatedWall | Chain
     check: CodeCheck
     curve: Fragility | None
     results: Results
 
     @property
-    def checked(self) -> MasonryWall | TabulatedWall:
+    def checked(self) -> MasonryWall | TabulatedWall | Chain:
         """The wall that is checked: a strip with the hinge of its check."""
         if not isinstance(self.wall, TwoBlockWall):
             return self.wall
@@ -48,8 +49,13 @@ class Subject:
 
     @property
     def is_turning(self) -> bool:
-        """Whether it is a wall of masonry that turns about its base, neither a strip nor a table."""
-        return not isinstance(self.wall, (TwoBlockWall, TabulatedWall))
+        """Whether it is a wall of masonry that turns about its base, neither a strip nor a chain nor a table."""
+        return not isinstance(self.wall, (TwoBlockWall, TabulatedWall, Chain))
+
+    @property
+    def per(self) -> str:
+        """What its forces are divided by: a metre of wall, or nothing of a chain, which is whole."""
+        return "" if isinstance(self.wall, Chain) else "/m"
 
     @property
     def has_ratios(self) -> bool:
@@ -195,7 +201,7 @@ def _need_same(several: Sequence[Subject], what: Mapping[str, Callable[[Subject]
             raise InputError(sentence, errors=[Problem(sentence, "not_together", differing[0])])
 
 
-def _checked(wall: Wall) -> MasonryWall | TabulatedWall:
-    """A wall as one of the two kinds whose parts the chapters name."""
-    assert isinstance(wall, (MasonryWall, TabulatedWall))
+def _checked(wall: Wall) -> MasonryWall | TabulatedWall | Chain:
+    """A wall as one of the kinds whose parts the chapters name."""
+    assert isinstance(wall, (MasonryWall, TabulatedWall, Chain))
     return wall

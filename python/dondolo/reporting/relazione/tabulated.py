@@ -1,4 +1,4 @@
-"""Steps of the check of a wall that is a table: its columns, and what follows from them at d_0* and at d_C.
+"""Steps of the check of a wall that is a table or a chain: its columns, and what follows from them at d_0* and at d_C.
 
 The curves through the columns are made here again, by NumPy. Steps are shown only if they give the numbers of the
 check.
@@ -17,10 +17,12 @@ from dondolo._base.arguments import FloatArray
 from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
 from dondolo.reporting.content import Piece, Symbol, Table
 from dondolo.reporting.numerals import Numeral
+from dondolo.reporting.relazione.chains import terms_of_chain
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.formulas import FIGURES
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import UNITS, Unit, cell
+from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall
 
 # Rows of the table that are printed, and how well the steps give the numbers of the check
@@ -32,16 +34,21 @@ _ENOUGH = 200
 
 
 class Terms:
-    """Columns of the table of a wall over the rotation θ: moment M, lever S = ΣP x' and displacement d."""
+    """Columns of a wall over the rotation θ, by its table or chain: moment M, lever S = ΣP x', displacement d."""
 
-    def __init__(self, wall: TabulatedWall) -> None:
-        self.rotation = np.asarray(wall.rotation, float)
-        lever = wall.weighted_lever
-        self.columns: dict[str, FloatArray] = {
-            "M": np.asarray(wall.moment, float),
-            "S": np.asarray(wall.lever, float) * wall.gravity if lever is None else np.asarray(lever, float),
-            "d": np.asarray(wall.travel, float),
-        }
+    def __init__(self, one: Subject) -> None:
+        wall = one.wall
+        self.columns: dict[str, FloatArray]
+        if isinstance(wall, TabulatedWall):
+            self.rotation = np.asarray(wall.rotation, float)
+            lever = wall.weighted_lever
+            self.columns = {
+                "M": np.asarray(wall.moment, float),
+                "S": np.asarray(wall.lever, float) * wall.gravity if lever is None else np.asarray(lever, float),
+                "d": np.asarray(wall.travel, float),
+            }
+        else:
+            self.rotation, self.columns = terms_of_chain(one)
         self._curves = {name: _curve(self.rotation, values) for name, values in self.columns.items()}
         self.capacity = wall.capacity_angle
 
@@ -103,7 +110,7 @@ def _places(one: Subject, terms: Terms) -> list[_Place]:
 def table_of(document: Document, one: Subject) -> list[Block]:
     """The columns of the table, of many rows some."""
     assert isinstance(one.wall, TabulatedWall)
-    terms = Terms(one.wall)
+    terms = Terms(one)
     count = len(terms.rotation)
     rows = sorted({*np.linspace(0, count - 1, min(count, _MOST)).round().astype(int).tolist()})
     theta, moment = Symbol("θ"), UNITS["N m/m"]
@@ -138,15 +145,21 @@ def _column(values: Sequence[float] | FloatArray, unit: Unit = UNITS[""]) -> lis
 
 def table_steps(document: Document, one: Subject) -> list[Block]:
     """The terms of the table at d_0* and at d_C, and the capacity that follows, a column each."""
-    assert isinstance(one.wall, TabulatedWall)
-    places = _places(one, Terms(one.wall))
+    places = _places(one, Terms(one))
+    is_chain = isinstance(one.wall, Chain)
+    if not places and is_chain:
+        words = _(
+            "Positions of the bodies do not give {d0} and {a} here as the calculation has them: they are those of the"
+            " code."
+        )
+        return [document.say(words, d0=symbol_of("d_0*"), a=symbol_of("a(d_C)"))]
     if not places:
         words = _(
             "Polynomials through the rows that are given here differ from those of the calculation: {d0} and {a} are"
             " those of the code."
         )
         return [document.say(words, d0=symbol_of("d_0*"), a=symbol_of("a(d_C)"))]
-    moment = UNITS["N m/m"]
+    moment = UNITS[f"N m{one.per}"]
     scale = one.wall.gravity / (
         one.check.value("mechanism", "SLV", "mass_ratio") * one.check.value("mechanism", "SLV", "knowledge_factor")
     )
@@ -155,20 +168,35 @@ def table_steps(document: Document, one: Subject) -> list[Block]:
     rows: list[tuple[Piece, list[Numeral]]] = [
         ((symbol_of("d"), " [m]"), _column([place.d for place in places])),
         ((theta, " [rad]"), _column([place.rotation for place in places])),
-        ((symbol_of("M"), " [kNm/m]"), _column([place.multiplier * place.lever for place in places], moment)),
-        ((symbol_of("S"), " [kNm/m]"), _column([place.lever for place in places], moment)),
+        ((symbol_of("M"), f" [{moment.name}]"), _column([place.multiplier * place.lever for place in places], moment)),
+        ((symbol_of("S"), f" [{moment.name}]"), _column([place.lever for place in places], moment)),
         (symbol_of("alpha"), _column([place.multiplier for place in places])),
         ((symbol_of("a"), " [m/s²]"), _column([place.multiplier * scale for place in places])),
     ]
     columns: dict[Piece, Any] = {document.text(_("quantity")): [head for head, _values in rows]}
     for at, place in enumerate(places):
         columns[place.name] = [values[at] for _head, values in rows]
-    words = _(
-        "At {d0} the moment {moment} vanishes. At a displacement {d} the column {d} of the table gives the rotation"
-        " {theta}, and the others what holds the wall there:"
+    words = (
+        _(
+            "At {d0} the moment {moment} of all that holds and pushes the chain vanishes. The positions of the bodies"
+            " at a displacement {d} = Σ {weight} {first} Δx/Σ {weight} {first} follow from the joints, with the"
+            " rotation {theta} of the body that drives; {lever} = Σ {weight} x' is how fast the weights move"
+            " outwards there:"
+        )
+        if is_chain
+        else _(
+            "At {d0} the moment {moment} vanishes. At a displacement {d} the column {d} of the table gives the rotation"
+            " {theta}, and the others what holds the wall there:"
+        )
     )
     names = {"d0": symbol_of("d_0*"), "moment": symbol_of("M"), "d": symbol_of("d"), "theta": theta}
-    caption = document.text(_("Terms of the table, multiplier and capacity a = α g/(e* FC)."))  # noqa: RUF001
+    if is_chain:
+        names |= {"lever": symbol_of("S"), "weight": symbol_of("P"), "first": symbol_of("d_x")}
+    caption = document.text(
+        _("Terms of the chain, multiplier and capacity a = α g/(e* FC).")  # noqa: RUF001
+        if is_chain
+        else _("Terms of the table, multiplier and capacity a = α g/(e* FC).")  # noqa: RUF001
+    )
     return [
         document.say(words, **names),
         Formula((symbol_of("alpha"), Fraction(symbol_of("M"), symbol_of("S")))),

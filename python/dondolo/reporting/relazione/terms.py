@@ -267,6 +267,13 @@ WARNINGS = {
     " si inflette più che oscillare, periodo elastico forse troppo lungo",
     "lifted_while_closed": "parete {wall}: la massa sovrastante non è sollevata finché i giunti sono chiusi, ma conta"
     " anche allora; mediane da 3 % troppo basse a 6 % troppo alte",
+    "mirror_image": "parete {wall}: si assume che verso l'interno si muova come la sua immagine speculare, ma le"
+    " tabelle non mostrano che muratura e carichi siano simmetrici: aggiungere come corpo 0 ciò che resta fermo, o due"
+    " pareti di una facciata",
+    "bodies_meet": "parete {wall}: i corpi {body} e {other} si compenetrano di {depth_mm} mm per una rotazione di"
+    " {rotation_rad} rad: il giunto si apre forse altrove",
+    "restitution_above_bound": "parete {wall}: il coefficiente di restituzione {restitution} supera {limit}, quello di"
+    " un urto su tutti i giunti con attrito illimitato",
     "floor_without_period": "parete {wall}: i solai di un edificio con un solo modo, di "
     "{building_period_s} s, non hanno"
     " moto vicino al periodo elastico della parete: assegnare anche il secondo modo, di circa {second_period_s} s",
@@ -278,7 +285,8 @@ WARNINGS = {
     " per lo SLO non c'è una formula per i meccanismi locali",
     "slides_first": "{item}: scorre prima di ruotare, perché con un attrito {friction} non ha quello necessario"
     " all'attivazione, {friction_needed}, per il moltiplicatore {alpha_0}",
-    "sliding_unknown": "una tabella non ha le forze alle cerniere: non si verifica se scorrono prima di ruotare",
+    "sliding_unknown": "le forze alle cerniere di una tabella o di una catena cinematica non sono note: non si"
+    " verifica se scorrono prima di ruotare",
     "friction_not_given": "{item}: per ruotare e non scorrere serve all'attivazione un attrito {friction_needed}; non"
     " si verifica se c'è, perché l'attrito non è assegnato",
     "perhaps_free": "la parete comincia sopra il suolo o finisce sopra l'edificio, e non la trattengono né catene né"

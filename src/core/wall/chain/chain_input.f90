@@ -7,6 +7,7 @@ module dondolo_wall_chain_input
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_chain, only : chain_action_type, chain_type, guide, is_guide, is_pin, pin
+   use dondolo_wall_chain_masonry, only : masonry_type
    use dondolo_wall_chain_overlap, only : outline_type
    use dondolo_wall_chain_part, only : chain_mass_type, point_mass, polygon, sector, together
    implicit none
@@ -34,33 +35,35 @@ module dondolo_wall_chain_input
    !> Densities that masonry, and what is carried, can have [kg/m3]
    real(wp), parameter :: least_density = 100.0_wp, most_density = 1.0e4_wp
 
-   !> Sides that the outline of a sector has on each of its arcs
-   integer, parameter :: arc_sides = 12
+   !> Convex slices that the outline of a sector is cut into
+   integer, parameter :: slices = 12
 
 contains
 
    !> Read a chain
-   subroutine read_chain(chain, outlines, input, problems)
+   subroutine read_chain(chain, masonry, input, problems)
       !> Its driver and gravity are known
       type(chain_type), intent(inout) :: chain
-      type(outline_type), allocatable, intent(out) :: outlines(:)
+      !> Parts of all bodies, and of masonry that stands still
+      type(masonry_type), intent(out) :: masonry
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
       integer :: equations
 
-      allocate (chain%bodies(0), chain%joints(0), chain%actions(0), outlines(0))
+      allocate (chain%bodies(0), chain%joints(0), chain%actions(0))
+      allocate (masonry%outlines(0), masonry%parts(0), masonry%body(0), masonry%standing(0))
       call check_size('body_table', body_numbers)
       call check_size('joint_table', joint_numbers)
       call check_size('action_table', action_numbers)
       if (problems%count > 0) return
-      call read_bodies(chain, outlines, as_rows('body_table', body_numbers), problems)
+      call read_bodies(chain, masonry, as_rows('body_table', body_numbers), problems)
       if (problems%count > 0) return
       if (chain%driver > size(chain%bodies)) call problems%note('driver = '//to_text(chain%driver)//': must be one of '// &
          & to_text(size(chain%bodies))//' bodies', out_of_range, 'driver')
       call read_joints(chain, as_rows('joint_table', joint_numbers), problems)
-      call read_actions(chain, as_rows('action_table', action_numbers), problems)
+      call read_actions(chain, masonry, as_rows('action_table', action_numbers), problems)
       if (problems%count > 0) return
       equations = sum(chain%joints%kind)
       associate (n => size(chain%bodies))
@@ -97,67 +100,84 @@ contains
 
    end subroutine read_chain
 
-   !> Read the bodies: those of one number are one body, corners of one part one polygon
-   subroutine read_bodies(chain, outlines, rows, problems)
+   !> Read the bodies: those of one number are one body, corners of one part one polygon; those of body 0 stand still
+   subroutine read_bodies(chain, masonry, rows, problems)
       type(chain_type), intent(inout) :: chain
-      type(outline_type), allocatable, intent(inout) :: outlines(:)
+      type(masonry_type), intent(inout) :: masonry
       real(wp), intent(in) :: rows(:, :)
       type(problems_type), intent(inout) :: problems
 
       type(chain_mass_type), allocatable :: parts(:)
-      type(outline_type) :: outline
-      integer :: body, first, last
+      type(outline_type), allocatable :: pieces(:)
+      integer :: body, first, last, most
 
-      do body = 1, nint(min(maxval(rows(1, :)), real(most_bodies + 1, wp)))
-         if (body > most_bodies .or. .not. any(nint(rows(1, :)) == body)) exit
-         parts = [chain_mass_type ::]
-         last = 0
-         do while (last < size(rows, 2))
-            first = last + 1
-            last = first
-            if (nint(rows(3, first)) == is_corner) then
-               do while (last < size(rows, 2))
-                  if (any(nint(rows(:3, last + 1)) /= nint(rows(:3, first)))) exit
-                  last = last + 1
-               end do
+      if (size(rows, 2) == 0) return
+      if (any(abs(rows(1, :) - anint(rows(1, :))) > 0.0_wp .or. rows(1, :) < 0.0_wp) .or. &
+         & maxval(rows(1, :)) > real(most_bodies, wp) .or. maxval(rows(1, :)) < 1.0_wp) then
+         call problems%note('bodies: their numbers must be integers from 1 to '//to_text(most_bodies)//', 0 of masonry that '// &
+            & 'stands still', out_of_range, 'bodies')
+         return
+      end if
+      most = nint(maxval(rows(1, :)))
+      do body = 0, most
+         if (body > 0 .and. .not. any(nint(rows(1, :)) == body)) then
+            call problems%note('bodies: body '//to_text(body)//' has no rows, but body '//to_text(most)//' has', not_given, &
+               & 'bodies')
+            return
+         end if
+         ! Openings and masses that are given make one part of a body: it is not known what could come off.
+         associate (is_whole => any(nint(rows(1, :)) == body .and. (nint(rows(3, :)) == is_mass .or. rows(4, :) < 0.0_wp)), &
+            & before => size(masonry%parts))
+            if (is_whole .and. body == 0) then
+               call problems%note('bodies: body 0 stands still, its parts must be polygons or sectors of masonry', out_of_range, &
+                  & 'bodies')
+               return
             end if
-            if (nint(rows(1, first)) /= body) cycle
-            outline%body = body
-            call read_part(rows(:, first:last), parts, outline%corners, problems)
-            if (problems%count > 0) return
-            if (rows(4, first) > 0.0_wp .and. size(outline%corners) > 0) outlines = [outlines, outline]
-         end do
-         associate (whole => together(parts))
-            if (.not. (whole%mass > 0.0_wp .and. whole%inertia > 0.0_wp)) call problems%note('bodies: body '//to_text(body)// &
-               & ' has a mass of '//rounded(whole%mass)//' kg and an inertia of '//rounded(whole%inertia)//' kg m2, both must '// &
-               & 'be positive', out_of_range, 'bodies')
-            chain%bodies = [chain%bodies, whole]
+            parts = [chain_mass_type ::]
+            last = 0
+            do while (last < size(rows, 2))
+               first = last + 1
+               last = first
+               if (nint(rows(3, first)) == is_corner) then
+                  do while (last < size(rows, 2))
+                     if (any(nint(rows(:3, last + 1)) /= nint(rows(:3, first)))) exit
+                     last = last + 1
+                  end do
+               end if
+               if (nint(rows(1, first)) /= body) cycle
+               call read_part(rows(:, first:last), parts, pieces, problems)
+               if (problems%count > 0) return
+               pieces%part = before + merge(1, size(parts), is_whole)
+               if (rows(4, first) > 0.0_wp) masonry%outlines = [masonry%outlines, pieces]
+            end do
+            if (body > 0) then
+               chain%bodies = [chain%bodies, together(parts)]
+               if (.not. (chain%bodies(body)%mass > 0.0_wp .and. chain%bodies(body)%inertia > 0.0_wp)) call problems%note( &
+                  & 'bodies: body '//to_text(body)//' has a mass of '//rounded(chain%bodies(body)%mass)//' kg and an inertia '// &
+                  & 'of '//rounded(chain%bodies(body)%inertia)//' kg m2, both must be positive', out_of_range, 'bodies')
+               if (is_whole) parts = chain%bodies(body:body)
+            end if
+            masonry%parts = [masonry%parts, parts]
+            masonry%body = [masonry%body, spread(body, 1, size(parts))]
          end associate
       end do
-      if (size(rows, 2) == 0) return
-      if (any(abs(rows(1, :) - anint(rows(1, :))) > 0.0_wp .or. rows(1, :) < 1.0_wp) .or. &
-         & maxval(rows(1, :)) > real(most_bodies, wp)) then
-         call problems%note('bodies: their numbers must be integers from 1 to '//to_text(most_bodies), out_of_range, 'bodies')
-      else if (size(chain%bodies) < nint(maxval(rows(1, :)))) then
-         call problems%note('bodies: body '//to_text(size(chain%bodies) + 1)//' has no rows, but body '// &
-            & to_text(nint(maxval(rows(1, :))))//' has', not_given, 'bodies')
-      end if
    end subroutine read_bodies
 
    !> Read a part
-   subroutine read_part(rows, parts, corners, problems)
+   subroutine read_part(rows, parts, pieces, problems)
       !> Its row, or those of its corners
       real(wp), intent(in) :: rows(:, :)
       type(chain_mass_type), allocatable, intent(inout) :: parts(:)
-      !> Its outline; of size 0: it has none
-      real(wp), allocatable, intent(out) :: corners(:, :)
+      !> Its outline, in one piece or several; of size 0: it has none
+      type(outline_type), allocatable, intent(out) :: pieces(:)
       type(problems_type), intent(inout) :: problems
 
+      real(wp), allocatable :: corners(:, :)
       real(wp) :: angles(2)
       integer :: i
 
       associate (row => rows(:, 1), at => [-rows(6, 1), rows(7, 1)], density => rows(4, 1)*rows(5, 1))
-         allocate (corners(2, 0))
+         allocate (pieces(0))
          if (nint(row(3)) /= is_mass .and. (row(5) < least_density .or. row(5) > most_density)) then
             call problems%note('bodies: a part of body '//to_text(nint(row(1)))//' has a density of '//rounded(row(5))// &
                & ' kg/m3, must lie between '//rounded(least_density)//' and '//rounded(most_density)// &
@@ -177,8 +197,11 @@ contains
                return
             end if
             parts = [parts, sector(at, row(8:9), angles, density)]
-            corners = reshape([(at + row(9)*direction(i), i=0, arc_sides), (at + row(8)*direction(i), i=arc_sides, 0, -1)], &
-               & [2, 2*arc_sides + 2])
+            do i = 1, slices
+               corners = reshape([at + row(8)*direction(i - 1), at + row(8)*direction(i), at + row(9)*direction(i), &
+                  & at + row(9)*direction(i - 1)], [2, 4])
+               pieces = [pieces, outline_type(nint(row(1)), corners=corners)]
+            end do
          case default
             corners = rows(6:7, :)
             corners(1, :) = -corners(1, :)
@@ -188,6 +211,7 @@ contains
                return
             end if
             parts = [parts, polygon(corners, density)]
+            pieces = [outline_type(nint(row(1)), corners=corners)]
             if (abs(parts(size(parts))%mass) > 0.0_wp) return
             call problems%note('bodies: a part of body '//to_text(nint(row(1)))//' has no area, width or density', out_of_range, &
                & 'bodies')
@@ -201,7 +225,7 @@ contains
          integer, intent(in) :: i
          real(wp) :: direction(2)
 
-         associate (angle => angles(1) + (angles(2) - angles(1))*real(i, wp)/real(arc_sides, wp))
+         associate (angle => angles(1) + (angles(2) - angles(1))*real(i, wp)/real(slices, wp))
             direction = [cos(angle), sin(angle)]
          end associate
       end function direction
@@ -235,8 +259,9 @@ contains
    end subroutine read_joints
 
    !> Read the actions
-   subroutine read_actions(chain, rows, problems)
+   subroutine read_actions(chain, masonry, rows, problems)
       type(chain_type), intent(inout) :: chain
+      type(masonry_type), intent(inout) :: masonry
       real(wp), intent(in) :: rows(:, :)
       type(problems_type), intent(inout) :: problems
 
@@ -245,7 +270,8 @@ contains
 
       do i = 1, size(rows, 2)
          associate (row => rows(:, i))
-            if (nint(row(1)) < 1 .or. nint(row(1)) > size(chain%bodies)) then
+            if (nint(row(1)) < 0 .or. nint(row(1)) > size(chain%bodies) .or. &
+               & (nint(row(1)) == 0 .and. .not. any(masonry%body == 0))) then
                call problems%note('actions: action '//to_text(i)//' is on body '//to_text(nint(row(1)))//', must be one of '// &
                   & to_text(size(chain%bodies)), out_of_range, 'actions')
             else if (any(row([4, 7, 8]) < 0.0_wp) .or. any(row(5:6) < 0.0_wp) .or. any(row(5:6) > 1.0_wp)) then
@@ -260,7 +286,11 @@ contains
                action%pushed = row(6)*row(4)/chain%gravity + row(7)
                action%thrust = row(8)*[cosine(row(9)), cosine(row(9) - 90.0_wp)]
                action%is_held = nint(row(10)) == 1
-               chain%actions = [chain%actions, action]
+               if (action%body > 0) then
+                  chain%actions = [chain%actions, action]
+               else
+                  masonry%standing = [masonry%standing, action]
+               end if
             end if
          end associate
       end do
@@ -278,9 +308,9 @@ contains
    end subroutine read_actions
 
    !> Do joints with the ground lie at two levels?
-   pure logical function stands_between(list)
-      !> Rows of the joints, one after the other
-      real(wp), intent(in) :: list(:)
+   pure logical function stands_between(list, bodies)
+      !> Rows of the joints, and of the bodies, one after the other
+      real(wp), intent(in) :: list(:), bodies(:)
 
       real(wp) :: low, high
       integer :: i
@@ -295,6 +325,8 @@ contains
          end associate
       end do
       stands_between = high > low
+      ! A hinge on masonry that stands still is at no floor.
+      if (size(bodies) > 0) stands_between = stands_between .and. .not. any(nint(bodies(::body_numbers)) == 0)
    end function stands_between
 
 end module dondolo_wall_chain_input

@@ -1,19 +1,22 @@
 !> Walls that are chains of rigid bodies: 'chain'. Its name, its properties, and how it becomes a mechanism: its joints decide how
 !> it moves, and its terms are sampled into a table (dondolo_wall_tabulated).
 module dondolo_wall_chain_model
-   use dondolo_base_error, only : error_type, not_given, out_of_range, problems_type, raise_input
+   use dondolo_base_error, only : error_type, not_at_rest, not_given, out_of_range, problems_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : blank, choices_length, is_integer, is_list, is_text, most_choices, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_building_input, only : spans
-   use dondolo_wall_chain, only : chain_type
+   use dondolo_wall_chain, only : chain_type, motion_type
+   use dondolo_wall_chain_check, only : chain_weights
    use dondolo_wall_chain_input, only : read_chain, stands_between
+   use dondolo_wall_chain_masonry, only : impact_bound, is_symmetric, masonry_type
    use dondolo_wall_chain_overlap, only : outline_type
-   use dondolo_wall_chain_state, only : check_chain
+   use dondolo_wall_chain_sides, only : make_inward
+   use dondolo_wall_chain_state, only : check_chain, deepest_overlap_type, find_overlap
    use dondolo_wall_chain_table, only : chain_table_type, sample_chain
-   use dondolo_wall_chain_terms, only : chain_support, find_end
+   use dondolo_wall_chain_terms, only : chain_support, chain_terms_type, find_end, set_at_rest, terms_at
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_restitution, only : impact_models_type
    use dondolo_wall_tabulated, only : new_tabulated, tabulated_type
@@ -53,14 +56,29 @@ module dondolo_wall_chain_model
    !> A wall that is a chain
    type, extends(tabulated_model_type) :: chain_model_type
       type(chain_type) :: chain
-      !> Outlines of its parts
-      type(outline_type), allocatable :: outlines(:)
+      !> Its masonry, with what stands still
+      type(masonry_type) :: masonry
+      !> alpha_0 outwards and inwards; huge: it moves to one side, or inwards as its mirror image
+      real(wp) :: multiplier(2) = huge(1.0_wp)
+      !> Are its terms those of the motion inwards, so that the chain and its outlines are seen from behind?
+      logical :: is_inward = .false.
+      !> Is the motion inwards taken as the mirror image of that outwards, because other joints may open?
+      logical :: is_mirrored = .false.
+      !> Is all of the masonry, with what acts on it, its mirror image?
+      logical :: is_image = .false.
+      !> Upper bound of the restitution; huge: it is not known where the joints end
+      real(wp) :: bound = huge(1.0_wp)
+      !> Bodies that move into each other
+      type(deepest_overlap_type) :: overlap
    contains
       procedure :: prepare
       procedure :: read
       procedure :: make_mechanism
       procedure :: describe
    end type chain_model_type
+
+   !> How much the two directions may differ / the lesser, and what is rounding of it
+   real(wp), parameter :: alike = 0.02_wp, same = 1.0e-9_wp
 
    !> Last rotation of its table / capacity, and / geometric end
    real(wp), parameter :: beyond = 1.1_wp, before_end = 0.999_wp
@@ -77,7 +95,7 @@ contains
 
       associate (those => problems)
       end associate
-      if (stands_between(input%list('joint_table'))) self%contact = spans
+      if (stands_between(input%list('joint_table'), input%list('body_table'))) self%contact = spans
    end subroutine prepare
 
    !> Read the rows, and check that they make a mechanism of one degree of freedom
@@ -101,7 +119,7 @@ contains
       self%chain%driver = 1
       if (input%has('driver')) self%chain%driver = nint(input%number('driver'))
       if (input%has('gravity_share')) self%chain%gravity_share = input%number('gravity_share')
-      call read_chain(self%chain, self%outlines, input, problems)
+      call read_chain(self%chain, self%masonry, input, problems)
    end subroutine read
 
    !> Make the mechanism
@@ -121,22 +139,20 @@ contains
       type(tabulated_type), allocatable :: made
       type(chain_table_type) :: table
       real(wp) :: capacity, end
-      logical :: is_smooth
+      logical :: is_known, is_smooth
 
       ! No model: which joints open after an impact does not follow from those that open before (dondolo_wall_chain_impact).
       impacts = impact_models_type()
-      call check_chain(self%chain, self%outlines, error)
+      call check_chain(self%chain, self%masonry%outlines, error)
+      if (.not. allocated(error)) call find_capacity(self%chain, capacity, end, error)
+      if (.not. allocated(error)) call look_inward(self, input%number('sides') > 1.0_wp, capacity, end, is_known, error)
       if (allocated(error)) return
-      call find_end(self%chain, capacity, end)
-      if (.not. capacity < huge(1.0_wp)) then
-         if (end < huge(1.0_wp)) then
-            call raise_input(error, 'joints: the chain closes on itself at '//rounded(end)//' rad, before its moment '// &
-               & 'vanishes; its joints must let it move further', out_of_range, 'joints')
-         else
-            call raise_input(error, 'moment: does not vanish up to 1.5 rad; the chain does not fall', out_of_range, 'moment')
-         end if
-         return
+      ! Where other joints may open that are not known, no bound is.
+      if (is_known .or. self%is_image) then
+         call impact_bound(self%chain, self%masonry, self%is_image, self%bound, is_known)
+         if (.not. is_known) self%bound = huge(1.0_wp)
       end if
+      call find_overlap(self%chain, self%masonry%outlines, capacity, self%overlap)
       call sample_chain(self%chain, min(beyond*capacity, before_end*end), table, is_smooth)
       if (.not. is_smooth) then
          call raise_input(error, 'joints: the terms change too fast near '//rounded(capacity)//' rad for a table of 129 '// &
@@ -155,6 +171,87 @@ contains
       call move_alloc(made, mechanism)
    end subroutine make_mechanism
 
+   !> Find the capacity of a chain
+   subroutine find_capacity(chain, capacity, end, error)
+      type(chain_type), intent(in) :: chain
+      !> Capacity and geometric end [rad]
+      real(wp), intent(out) :: capacity, end
+      !> It has no capacity
+      type(error_type), allocatable, intent(out) :: error
+
+      call find_end(chain, capacity, end)
+      if (capacity < huge(1.0_wp)) return
+      if (end < huge(1.0_wp)) then
+         call raise_input(error, 'joints: the chain closes on itself at '//rounded(end)//' rad, before its moment '// &
+            & 'vanishes; its joints must let it move further', out_of_range, 'joints')
+      else
+         call raise_input(error, 'moment: does not vanish up to 1.5 rad; the chain does not fall', out_of_range, 'moment')
+      end if
+   end subroutine find_capacity
+
+   !> Look at the motion inwards: of a chain that moves to both sides take the one of the lesser multiplier, if they are about alike
+   subroutine look_inward(model, moves_inwards, capacity, end, is_known, error)
+      type(chain_model_type), intent(inout) :: model
+      !> Does it move to both sides?
+      logical, intent(in) :: moves_inwards
+      !> In: outwards; out: on the side that is taken [rad]
+      real(wp), intent(inout) :: capacity, end
+      !> Is it known which joints open inwards?
+      logical, intent(out) :: is_known
+      !> The sides differ
+      type(error_type), allocatable, intent(out) :: error
+
+      type(chain_type) :: inward
+      type(outline_type), allocatable :: outlines(:)
+      real(wp) :: inward_capacity, inward_end
+
+      call make_inward(model%chain, model%masonry%outlines, inward, outlines, is_known)
+      if (is_known .and. moves_inwards) call check_chain(inward, outlines, error)
+      if (allocated(error)) then
+         if (error%problem(1)%code == not_at_rest) then
+            error%message = 'sides = 2: inwards the chain falls by itself ('//error%message//'); give sides = 1'
+            return
+         end if
+         deallocate (error)
+         is_known = .false.
+      end if
+      if (.not. is_known) model%is_image = is_symmetric(model%masonry, model%chain%actions)
+      model%is_mirrored = moves_inwards .and. .not. is_known
+      if (.not. (is_known .and. moves_inwards)) return
+      call find_capacity(inward, inward_capacity, inward_end, error)
+      if (allocated(error)) return
+      model%multiplier = [multiplier_of(model%chain), multiplier_of(inward)]
+      associate (alpha => model%multiplier, q => [capacity, inward_capacity])
+         if (max(maxval(alpha)/minval(alpha), maxval(q)/minval(q)) > 1.0_wp + alike) then
+            call raise_input(error, 'sides = 2: outwards and inwards differ (alpha_0 '//rounded(alpha(1))//' and '// &
+               & rounded(alpha(2))//', capacity '//rounded(q(1))//' and '//rounded(q(2))//' rad) by more than '// &
+               & rounded(100.0_wp*alike)//' %; give two walls of one facade, with sides = 1', out_of_range, 'sides')
+            return
+         end if
+         if (alpha(1) <= alpha(2)*(1.0_wp + same)) return
+      end associate
+      model%is_inward = .true.
+      model%chain = inward
+      model%masonry%outlines = outlines
+      model%masonry%parts%at(1) = -model%masonry%parts%at(1)
+      capacity = inward_capacity
+      end = inward_end
+   end subroutine look_inward
+
+   !> Multiplier that starts a chain
+   real(wp) function multiplier_of(chain) result(alpha)
+      type(chain_type), intent(in) :: chain
+
+      type(motion_type) :: motion
+      type(chain_terms_type) :: terms
+      real(wp), allocatable :: weight(:), displacement(:)
+
+      call set_at_rest(chain, motion)
+      terms = terms_at(chain, motion)
+      call chain_weights(chain, motion, weight, displacement)
+      alpha = terms%moment/sum(weight*displacement)
+   end function multiplier_of
+
    !> Describe bodies, joints and table
    subroutine describe(self, input, gravity, lines)
       class(chain_model_type), intent(in) :: self
@@ -165,23 +262,39 @@ contains
       !> `subject: numbers with their units`
       type(lines_type), intent(inout) :: lines
 
+      real(wp) :: side
       integer :: i
 
-      associate (of => input, ignored => gravity)
+      associate (ignored => gravity)
       end associate
+      side = merge(-1.0_wp, 1.0_wp, self%is_inward)
       do i = 1, size(self%chain%bodies)
          associate (body => self%chain%bodies(i))
-            call lines%add('body '//to_text(i)//': '//rounded(body%mass)//' kg at depth '//rounded(0.0_wp - body%at(1))// &
+            call lines%add('body '//to_text(i)//': '//rounded(body%mass)//' kg at depth '//rounded(0.0_wp - side*body%at(1))// &
                & ' m, height '//rounded(body%at(2))//' m; inertia '//rounded(body%inertia)//' kg m2')
          end associate
       end do
       do i = 1, size(self%chain%actions)
          associate (action => self%chain%actions(i))
             call lines%add('action '//to_text(i)//': '//rounded(action%weight)//' N, thrust '//rounded(norm2(action%thrust))// &
-               & ' N at depth '//rounded(0.0_wp - action%at(1))//' m, height '//rounded(action%at(2))//' m; pushed '// &
+               & ' N at depth '//rounded(0.0_wp - side*action%at(1))//' m, height '//rounded(action%at(2))//' m; pushed '// &
                & rounded(action%pushed)//' kg, lifted '//rounded(action%lifted)//' kg')
          end associate
       end do
+      if (self%multiplier(1) < huge(1.0_wp)) call lines%add('sides: alpha_0 '//rounded(self%multiplier(1))//' outwards and '// &
+         & rounded(self%multiplier(2))//' inwards; the terms of the lesser are used for both')
+      if (self%is_mirrored .and. self%is_image) then
+         call lines%add('sides: it moves inwards as its mirror image, which all of it is')
+      else if (self%is_mirrored) then
+         call lines%add('sides: inwards it is taken to move as the mirror image; that the masonry is one is not known')
+      end if
+      if (self%bound < huge(1.0_wp)) then
+         call lines%add('restitution: '//rounded(input%number('restitution_value'))//' given; an impact on all joints leaves '// &
+            & rounded(self%bound)//', an upper bound with unlimited friction')
+      else
+         call lines%add('restitution: '//rounded(input%number('restitution_value'))//' given; no upper bound, because not all '// &
+            & 'joints that an impact may open are known')
+      end if
       call self%tabulated_model_type%describe(input, gravity, lines)
    end subroutine describe
 

@@ -7,11 +7,14 @@ module dondolo_wall_chain_overlap
    implicit none
    private
 
-   public :: outline_type, overlap_of_bodies
+   public :: depth_of_overlap, outline_type, overlap_of_bodies
 
-   !> The outline of a part of a body
+   !> The outline of a part of a body, or a piece of it
    type :: outline_type
+      !> 0: of masonry that stands still
       integer :: body = 0
+      !> Number of the part among those of all bodies
+      integer :: part = 0
       !> Its corners at rest (x and y, corner) [m]
       real(wp), allocatable :: corners(:, :)
    end type outline_type
@@ -41,6 +44,43 @@ contains
          end do
       end do
    end function overlap_of_bodies
+
+   !> How deep a corner of a convex part of one of two bodies lies in one of the other at a motion [m]
+   pure real(wp) function depth_of_overlap(chain, outlines, motion, body, other) result(depth)
+      type(chain_type), intent(in) :: chain
+      type(outline_type), intent(in) :: outlines(:)
+      type(motion_type), intent(in) :: motion
+      integer, intent(in) :: body, other
+
+      real(wp), allocatable :: one(:, :), two(:, :)
+      integer :: i, k
+
+      depth = 0.0_wp
+      do i = 1, size(outlines)
+         if (outlines(i)%body /= body) cycle
+         call move_corners(chain, outlines(i), motion, one)
+         if (.not. is_convex(one)) cycle
+         do k = 1, size(outlines)
+            if (outlines(k)%body /= other) cycle
+            call move_corners(chain, outlines(k), motion, two)
+            if (is_convex(two)) depth = max(depth, depth_within(one, two), depth_within(two, one))
+         end do
+      end do
+   end function depth_of_overlap
+
+   !> How deep a corner lies within a convex anticlockwise polygon
+   pure real(wp) function depth_within(corners, polygon) result(depth)
+      real(wp), intent(in) :: corners(:, :), polygon(:, :)
+
+      integer :: i, k, n
+
+      n = size(polygon, 2)
+      depth = 0.0_wp
+      do i = 1, size(corners, 2)
+         depth = max(depth, minval([(turn(polygon(:, k), polygon(:, modulo(k, n) + 1), corners(:, i)) &
+            & /norm2(polygon(:, modulo(k, n) + 1) - polygon(:, k)), k=1, n)]))
+      end do
+   end function depth_within
 
    !> Corners of an outline at a motion, anticlockwise
    pure subroutine move_corners(chain, outline, motion, corners)

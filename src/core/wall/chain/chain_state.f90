@@ -6,12 +6,19 @@ module dondolo_wall_chain_state
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_chain, only : chain_type, is_pin, motion_type, point_motion
    use dondolo_wall_chain_equations, only : factor_type
-   use dondolo_wall_chain_overlap, only : outline_type, overlap_of_bodies
-   use dondolo_wall_chain_terms, only : chain_terms_type, set_at_rest, terms_at
+   use dondolo_wall_chain_overlap, only : depth_of_overlap, outline_type, overlap_of_bodies
+   use dondolo_wall_chain_terms, only : chain_terms_type, set_at_rest, terms_at, walk_to
    implicit none
    private
 
-   public :: check_chain
+   public :: check_chain, deepest_overlap_type, find_overlap
+
+   !> Two bodies that move into each other
+   type :: deepest_overlap_type
+      integer :: body = 0, other = 0
+      !> How deep [m], and at which rotation [rad]
+      real(wp) :: depth = 0.0_wp, rotation = 0.0_wp
+   end type deepest_overlap_type
 
    !> Area in which two bodies may overlap at rest [m2]: corners are given in millimetres
    real(wp), parameter :: least_overlap = 1.0e-4_wp
@@ -97,6 +104,34 @@ contains
          end associate
       end do
    end subroutine check_overlaps
+
+   !> Find where bodies are deepest in each other up to a rotation
+   subroutine find_overlap(chain, outlines, last, overlap)
+      type(chain_type), intent(in) :: chain
+      type(outline_type), intent(in) :: outlines(:)
+      !> [rad]
+      real(wp), intent(in) :: last
+      type(deepest_overlap_type), intent(out) :: overlap
+
+      !> Rotations that are looked at
+      integer, parameter :: places = 10
+      type(motion_type) :: motion
+      real(wp) :: depth
+      logical :: is_there
+      integer :: i, k, place
+
+      call set_at_rest(chain, motion)
+      do place = 1, places
+         call walk_to(chain, last*real(place, wp)/real(places, wp), motion, is_there)
+         if (.not. is_there) return
+         do i = 1, size(chain%bodies)
+            do k = i + 1, size(chain%bodies)
+               depth = depth_of_overlap(chain, outlines, motion, i, k)
+               if (depth > overlap%depth) overlap = deepest_overlap_type(i, k, depth, motion%q)
+            end do
+         end do
+      end do
+   end subroutine find_overlap
 
    !> Names of the joints of some equations: 'pin 2, guide 1'
    pure function names_of(chain, rows) result(text)

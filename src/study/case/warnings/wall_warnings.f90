@@ -5,6 +5,7 @@ module dondolo_case_wall_warnings
    use dondolo_base_property, only : find_property, hint_of, property_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_warning, only : warning_type, warnings_type
+   use dondolo_case_chain_warnings, only : chain_warnings_type
    use dondolo_case_elastic_warnings, only : elastic_warnings_type
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
@@ -61,6 +62,8 @@ module dondolo_case_wall_warnings
       type(odd_walls_type), allocatable :: odd(:, :)
       !> Strips with a period, beside their records and damage states
       type(elastic_warnings_type) :: elastic
+      !> Chains
+      type(chain_warnings_type) :: chains
    contains
       !> Look at a wall
       procedure :: look
@@ -83,6 +86,7 @@ contains
       density = find_property(wall_properties, 'density')
       self%walls = self%walls + 1
       call self%elastic%look(wall)
+      call self%chains%look(wall)
       outside = .false.
       values = 0.0_wp
       do i = 1, size(wall_properties)
@@ -191,6 +195,7 @@ contains
 
       if (present(records)) call self%elastic%warn_of_records(records, warnings)
       if (present(thresholds)) call self%elastic%warn_of_thresholds(thresholds, warnings)
+      call self%chains%warn(self%walls, warnings)
       if (.not. allocated(self%odd)) return
       do i = 1, size(wall_properties)
          call warn_of_value(self, i, wall_properties(i), warnings)

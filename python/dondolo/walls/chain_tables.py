@@ -1,0 +1,101 @@
+"""The tables of a chain as files that cases and tables of walls name: bodies, joints, and what acts on them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dondolo._base.arguments import FloatArray, argument_error
+from dondolo._storage.tables import Table, csv_lines, shortest, write_lines
+
+if TYPE_CHECKING:
+    from dondolo.walls.chains import Chain
+
+# Kinds of rows of bodies
+_CORNER, _MASS, _SECTOR = 0, 1, 2
+# Which parts of a load are lifted and pushed, by its word
+_INERTIAS = {(0.0, 0.0): "none", (1.0, 0.0): "vertical", (1.0, 1.0): "both"}
+
+
+def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Write the files of a chain: what begins with a prefix; they have all digits."""
+    tables = {
+        "bodies": _bodies(wall._rows("body_table")),
+        "joints": _joints(wall._rows("joint_table")),
+        "actions": _actions(wall._rows("action_table")),
+    }
+    paths = []
+    for name, table in tables.items():
+        if not len(table["body"]):
+            continue
+        paths.append(Path(f"{os.fspath(prefix)}_{name}.csv"))
+        write_lines(paths[-1], csv_lines(table, (), shortest))
+    return tuple(paths)
+
+
+def _numbers(values: FloatArray) -> list[int]:
+    return [int(value) for value in values]
+
+
+def _bodies(rows: FloatArray) -> Table:
+    """Rows of bodies: corners, masses and sectors have columns of their own."""
+
+    def of(kind: int, place: int) -> list[float | None]:
+        return [float(row[place]) if row[2] == kind else None for row in rows]
+
+    return {
+        "body": _numbers(rows[:, 0]),
+        "part": _numbers(rows[:, 1]),
+        "width [m]": [None if row[2] == _MASS else float(row[3]) for row in rows],
+        "density [kg/m3]": [None if row[2] == _MASS else float(row[4]) for row in rows],
+        "depth [m]": rows[:, 5] + 0.0,
+        "height [m]": rows[:, 6] + 0.0,
+        "mass [kg]": of(_MASS, 7),
+        "inertia [kg m2]": of(_MASS, 8),
+        "inner [m]": of(_SECTOR, 7),
+        "outer [m]": of(_SECTOR, 8),
+        "from [deg]": of(_SECTOR, 9),
+        "to [deg]": of(_SECTOR, 10),
+    }
+
+
+def _joints(rows: FloatArray) -> Table:
+    """Rows of joints: the point of the other body only where it is another one."""
+    is_other = [bool((row[3:5] != row[6:8]).any()) for row in rows]
+    for other, row in zip(is_other, rows, strict=True):
+        if other and not row[6:8].any():
+            raise argument_error(
+                "out_of_range", "other_at", " = (0, 0): a file has no word for this point; move the origin"
+            )
+    return {
+        "type": ["pin" if row[0] == 2.0 else "guide" for row in rows],
+        "body": _numbers(rows[:, 1]),
+        "other": _numbers(rows[:, 2]),
+        "depth [m]": rows[:, 3] + 0.0,
+        "height [m]": rows[:, 4] + 0.0,
+        "angle [deg]": rows[:, 5] + 0.0,
+        "other_depth [m]": [float(row[6]) if other else None for other, row in zip(is_other, rows, strict=True)],
+        "other_height [m]": [float(row[7]) if other else None for other, row in zip(is_other, rows, strict=True)],
+    }
+
+
+def _actions(rows: FloatArray) -> Table:
+    """Rows of actions."""
+    words = []
+    for row in rows:
+        moved = (float(row[4]), float(row[5]))
+        if moved not in _INERTIAS:
+            raise argument_error("not_a_word", "inertia", f": a file has no word for parts {moved} of a load that move")
+        words.append(_INERTIAS[moved] if row[3] > 0.0 else "none")
+    return {
+        "body": _numbers(rows[:, 0]),
+        "depth [m]": rows[:, 1] + 0.0,
+        "height [m]": rows[:, 2] + 0.0,
+        "load [N]": rows[:, 3],
+        "inertia": words,
+        "held": ["yes" if row[9] > 0.0 else "no" for row in rows],
+        "mass [kg]": rows[:, 6],
+        "thrust [N]": rows[:, 7],
+        "angle [deg]": rows[:, 8],
+    }
