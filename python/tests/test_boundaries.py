@@ -186,6 +186,13 @@ def interlocked(overlap, **sizes):
     return dd.OneSidedWall(**sizes, interlock=dd.Interlock(overlap=overlap, course=0.1, thickness=0.25, spacing=5.0))
 
 
+def heavy(mass, height=3.0, thickness=0.25):
+    """A wall of a given mass."""
+    inertia = mass * (height**2 + thickness**2) / 3.0
+    where = {"centroid_depth": 0.5 * thickness, "centroid_height": 0.5 * height}
+    return dd.OneSidedWall(height, thickness, mass=mass, hinge_inertia=inertia, **where)
+
+
 @pytest.mark.parametrize(
     ("make", "levels", "code"),
     [
@@ -197,6 +204,9 @@ def interlocked(overlap, **sizes):
             [0.2],
             "overlap_above_thickness",
         ),
+        (lambda: heavy(1.35), [0.2], "mass_beside_size"),  # tonnes
+        (lambda: heavy(13.5), [0.2], "mass_beside_size"),  # kilonewtons
+        (lambda: heavy(1.35e6), [0.2], "mass_beside_size"),  # grams
         (lambda: dd.OneSidedWall(3.0, 0.25), [1.0, 5.0], "levels_above_usual"),
     ],
 )
@@ -207,11 +217,18 @@ def test_slips_are_warned_of(make, levels, code, few):
 
 
 @pytest.mark.parametrize(
-    "wall", [interlocked(0.25), interlocked(0.44, sections=[dd.Section(2.0, 0.3), dd.Section(1.0, 0.45)])]
+    "wall",
+    [
+        interlocked(0.25),
+        interlocked(0.44, sections=[dd.Section(2.0, 0.3), dd.Section(1.0, 0.45)]),
+        heavy(1350.0),
+        heavy(8 * 1350.0),  # of a facade, not of a metre of it
+    ],
 )
-def test_stones_as_long_as_the_thickness_are_usual(wall, few, recwarn):
+def test_what_is_usual_is_not_warned_of(wall, few, recwarn):
     dd.multiple_stripe(wall, few, [0.2], progress=False)
-    assert "overlap_above_thickness" not in [getattr(found.message, "code", "") for found in recwarn]
+    codes = [getattr(found.message, "code", "") for found in recwarn]
+    assert not {"overlap_above_thickness", "mass_beside_size", "value_above_usual", "value_below_usual"} & set(codes)
 
 
 # Names that formats and terminals could take for their own signs, and those that stand for steps of the cursor

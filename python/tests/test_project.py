@@ -436,14 +436,17 @@ def test_import_is_quick():
         " if name in sys.modules]; "
         "print(own / numpy_alone, whole / numpy_alone, *heavy)"
     )
-    runs = [
-        subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
-        for _ in range(5)
-    ]
-    assert all(len(words) == 2 for words in runs), runs
-    assert min(float(own) for own, _ in runs) < 1.3
-    # Every public name, with all that it needs
-    assert min(float(whole) for _, whole in runs) < 2.5
+    least = [float("inf"), float("inf")]
+    # A busy machine makes single runs slow, not the quickest of many.
+    for _ in range(20):
+        run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+        own, whole, *heavy = run.stdout.split()
+        assert heavy == []
+        least = [min(least[0], float(own)), min(least[1], float(whole))]
+        # The second is of every public name, with all that it needs.
+        if least[0] < 1.3 and least[1] < 2.5:
+            return
+    pytest.fail(f"import dondolo / import numpy, and with every name: {least}")
 
 
 def test_pulses_offer_what_is_theirs():
@@ -475,14 +478,17 @@ def test_a_call_costs_little(samples):
         lambda: [np.abs(record.acceleration).max() for _ in "four"],
     )
     best = [np.inf, np.inf]
-    for _ in range(20):
+    # A busy machine makes single turns slow, not the quickest of many.
+    for turn in range(200):
         for k, call in enumerate(calls):
             start = time.perf_counter()
             for _ in range(50):
                 call()
             best[k] = min(best[k], time.perf_counter() - start)
-    # The motion itself, a look at every sample, is in it.
-    assert best[0] < 6.0 * best[1]
+        # The motion itself, a look at every sample, is in it.
+        if turn >= 5 and best[0] < 6.0 * best[1]:
+            return
+    pytest.fail(f"simulate / four passes: {best[0] / best[1]}")
 
 
 def test_documented():

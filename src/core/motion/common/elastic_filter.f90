@@ -6,7 +6,7 @@
 !> happens there that is not linear.
 module dondolo_motion_elastic_filter
    use dondolo_base_kinds, only : wp
-   use dondolo_motion_elastic_flow, only : at_turn, bent_type, elastic_flow_type, longest_angle, new_elastic_flow
+   use dondolo_motion_elastic_flow, only : at_level, at_turn, bent_type, elastic_flow_type, longest_angle, new_elastic_flow
    use dondolo_record, only : record_type
    use dondolo_wall_elastic_joint, only : elastic_joint_type
    implicit none
@@ -37,7 +37,11 @@ module dondolo_motion_elastic_filter
       real(wp) :: dt = 0.0_wp, bulge(2) = 0.0_wp, bulge_of_rate(2) = 0.0_wp
       !> Largest |X| [rad] and its time [s], free motion after the record included
       real(wp), public :: peak = 0.0_wp, time_of_peak = 0.0_wp
+      !> Largest |X'| with which X = 0 is passed [rad/s]
+      real(wp) :: fastest = 0.0_wp
    contains
+      !> Whether the whole motion is linear
+      procedure :: is_whole_motion
       !> State at a sample
       procedure :: at_sample
       !> Whether a block begins at a sample
@@ -85,20 +89,27 @@ contains
             v(:n) = state(:n - 1)%v
             ground(:n) = max(abs(a(:n)), abs(a(2:)))
             filter%reach(block) = sqrt(maxval(x(:n)**2 + v(:n)**2))/joint%frequency + filter%push*maxval(ground(:n))
-            if (.not. filter%reach(block) > filter%peak) cycle
+            if (.not. filter%reach(block) > known(filter)) cycle
             amplitude(:n) = sqrt(x(:n)**2 + v(:n)**2)/joint%frequency + filter%push*ground(:n)
             do i = 1, n
-               if (.not. amplitude(i) > filter%peak) cycle
+               if (.not. amplitude(i) > known(filter)) cycle
                flow = new_elastic_flow(joint, state(i - 1), a(i), (a(i + 1) - a(i))/record%dt)
-               call look_for_peak(filter, flow, real(first + i - 1, wp)*record%dt, record%dt, state(i - 1))
+               call look_for_largest(filter, flow, real(first + i - 1, wp)*record%dt, record%dt, state(i - 1))
             end do
          end associate
       end do
       filter%start(size(filter%start)) = state(n)
       ! The swing after the record is largest in its first turn.
       flow = new_elastic_flow(joint, state(n), 0.0_wp, 0.0_wp)
-      call look_for_peak(filter, flow, record%duration(), joint%period, state(n))
+      call look_for_largest(filter, flow, record%duration(), joint%period, state(n))
    end function new_elastic_filter
+
+   !> Amplitude below which there is neither a new peak nor a faster passage [rad]
+   pure real(wp) function known(filter)
+      type(elastic_filter_type), intent(in) :: filter
+
+      known = min(filter%peak, filter%fastest/filter%joint%frequency)
+   end function known
 
    !> From a sample to the next: what a unit of each of the two states and of the two accelerations becomes
    pure subroutine set_step(filter, dt)
@@ -149,8 +160,8 @@ contains
       end associate
    end function filter_step
 
-   !> Look for a new peak in a motion
-   pure subroutine look_for_peak(filter, flow, begin, duration, state)
+   !> Look for a new peak, and for a faster passage of X = 0, in a motion
+   pure subroutine look_for_largest(filter, flow, begin, duration, state)
       type(elastic_filter_type), intent(inout) :: filter
       type(elastic_flow_type), intent(in) :: flow
       !> Time of its begin, and how long it lasts [s]
@@ -158,26 +169,56 @@ contains
       !> State at its begin
       type(bent_type), intent(in) :: state
 
-      type(bent_type) :: here, next
-      real(wp) :: step, turn
+      type(bent_type) :: here, next, top
+      real(wp) :: step, turn, from, to
       integer :: part, parts
 
       parts = max(1, ceiling(filter%joint%frequency*duration/longest_angle))
       step = duration/real(parts, wp)
       here = state
       do part = 1, parts
-         next = flow%at(step*real(part, wp))
+         from = step*real(part - 1, wp)
+         to = step*real(part, wp)
+         next = flow%at(to)
          if (here%v*next%v < 0.0_wp) then
-            turn = flow%time_of(at_turn, 0.0_wp, sign(1.0_wp, next%v), step*real(part - 1, wp), step*real(part, wp))
-            here = flow%at(turn)
-            if (abs(here%x) > filter%peak) then
-               filter%peak = abs(here%x)
+            turn = flow%time_of(at_turn, 0.0_wp, sign(1.0_wp, next%v), from, to)
+            top = flow%at(turn)
+            if (abs(top%x) > filter%peak) then
+               filter%peak = abs(top%x)
                filter%time_of_peak = begin + turn
             end if
+            call look_for_passage(filter, flow, from, turn, here, top)
+            call look_for_passage(filter, flow, turn, to, top, next)
+         else
+            call look_for_passage(filter, flow, from, to, here, next)
          end if
          here = next
       end do
-   end subroutine look_for_peak
+   end subroutine look_for_largest
+
+   !> Look for a faster passage of X = 0 on a way without a turn
+   pure subroutine look_for_passage(filter, flow, from, to, here, next)
+      type(elastic_filter_type), intent(inout) :: filter
+      type(elastic_flow_type), intent(in) :: flow
+      !> Times at which it begins and ends [s], and the states there
+      real(wp), intent(in) :: from, to
+      type(bent_type), intent(in) :: here, next
+
+      type(bent_type) :: middle
+
+      if (.not. here%x*next%x < 0.0_wp) return
+      middle = flow%at(flow%time_of(at_level, 0.0_wp, sign(1.0_wp, next%x), from, to))
+      filter%fastest = max(filter%fastest, abs(middle%v))
+   end subroutine look_for_passage
+
+   !> Whether the whole motion is linear: the joints do not open, and no passage of x = 0 is faster than v_y
+   elemental logical function is_whole_motion(self, scale)
+      class(elastic_filter_type), intent(in) :: self
+      !> Factor on the accelerogram
+      real(wp), intent(in) :: scale
+
+      is_whole_motion = abs(scale)*self%peak < self%joint%opening .and. .not. abs(scale)*self%fastest > self%joint%speed
+   end function is_whole_motion
 
    !> State at a sample, under the accelerogram as it is
    pure type(bent_type) function at_sample(self, record, sample) result(state)

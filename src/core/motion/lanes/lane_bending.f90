@@ -23,7 +23,7 @@ module dondolo_motion_lane_bending
 contains
 
    !> Closed motion, until the joints open or the record is over, which its interval tells
-   pure subroutine bend(joint, constants, filter, record, history, state, trace, start)
+   pure subroutine bend(joint, constants, filter, record, history, state, trace, start, without_jumps)
       type(elastic_joint_type), intent(in) :: joint
       !> Constants of the wall
       class(wall_constants_type), intent(in) :: constants
@@ -37,14 +37,18 @@ contains
       !> Time history, and the time at which the record begins in it [s]
       type(trace_type), intent(inout), optional :: trace
       real(wp), intent(in), optional :: start
+      !> Whether to look at every sample, so that no peak below the opening is missed. No, if absent
+      logical, intent(in), optional :: without_jumps
 
       type(bent_type) :: before
       integer :: first, sample
-      logical :: is_open
+      logical :: is_open, jumps
 
       is_open = .false.
+      jumps = .true.
+      if (present(without_jumps)) jumps = .not. without_jumps
       do while (history%interval < size(record%acceleration))
-         if (.not. history%time > 0.0_wp) then
+         if (jumps .and. .not. history%time > 0.0_wp) then
             first = history%interval
             before = state
             call filter%skip(record, history%scale, history%interval, state)

@@ -285,7 +285,7 @@ contains
 
       associate (history => batch%history(i), filter => batch%filter(batch%history(i)%record))
          ! Most histories of low levels never open: their peak is that of the filter.
-         history%over = abs(history%scale)*filter%peak < batch%mechanism%joint%opening .and. .not. associated(batch%trace)
+         history%over = filter%is_whole_motion(history%scale) .and. .not. associated(batch%trace)
          if (.not. history%over) then
             call go_on_bending(batch, i)
          else if (.not. batch%constants%first_peak > 0.0_wp) then
@@ -327,6 +327,12 @@ contains
                & batch%trace, batch%start)
          else
             call bend(joint, constants, batch%filter(history%record), record, history%history_type, history%bent)
+            if (.not. (history%given_up .or. history%peak >= joint%opening)) then
+               ! It never opened. Jumps passed over its peak, which is where nothing else happened.
+               history = lane_history_type(number=history%number, record=history%record, scale=history%scale, rest=history%rest)
+               call bend(joint, constants, batch%filter(history%record), record, history%history_type, history%bent, &
+                  & without_jumps=.true.)
+            end if
          end if
          lanes%next(i) = set%offset(history%record) + history%interval + 1
          ! Joints that open at the very end of the record do so in its free motion.

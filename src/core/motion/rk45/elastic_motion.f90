@@ -99,11 +99,16 @@ contains
       type(motion_type) :: motion
 
       call begin(mechanism, record, scale, solver, constants, motion)
-      if (abs(scale)*filter%peak < motion%closing) then
+      if (filter%is_whole_motion(scale)) then
          motion%peak = abs(scale)*filter%peak
          motion%time_of_peak = filter%time_of_peak
       else
          call follow(mechanism, constants, record, motion, filter=filter)
+         if (.not. (motion%given_up .or. motion%peak > motion%closing)) then
+            ! It never opened. Jumps passed over its peak, which is where nothing else happened.
+            call begin(mechanism, record, scale, solver, constants, motion)
+            call follow(mechanism, constants, record, motion)
+         end if
       end if
       call finish(constants, record, motion, response, work)
    end subroutine simulate_filtered

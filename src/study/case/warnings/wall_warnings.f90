@@ -23,18 +23,21 @@ module dondolo_case_wall_warnings
       & height_below_thickness = 'height_below_thickness', load_place_without_load = 'load_place_without_load', &
       & overlap_above_thickness = 'overlap_above_thickness', bending_neglected = 'bending_neglected', &
       & opening_above_usual = 'opening_above_usual', lifted_while_closed = 'lifted_while_closed', &
-      & floor_without_period = 'floor_without_period'
+      & floor_without_period = 'floor_without_period', mass_beside_size = 'mass_beside_size'
 
    !> Opening of joints / capacity above which a strip is bent rather than rocking
    real(wp), parameter :: usual_opening = 0.1_wp
    !> Period of the first mode of a house that is not listed with its second one / period of that
    real(wp), parameter :: second_mode = 3.0_wp
+   !> A mass that is given belongs to a body of any shape: over height times thickness it may exceed the usual density, or fall
+   !> short of it, by this factor. Tonnes, quintals and kilonewtons in place of kilograms differ by more
+   real(wp), parameter :: any_shape = 10.0_wp
 
    !> Places after the properties: the gravity of a wall, and values that do not go together
    integer, parameter :: gravity = size(wall_properties) + 1, pairs = size(wall_properties) + 2
    !> How many pairs of values are compared, strips that bend among them: without a period; with one those that open late, that
-   !> lift a mass, and that are on a building of one mode
-   integer, parameter :: n_pairs = 7, strips = 4, late = 5, lifting = 6, alone = 7
+   !> lift a mass, and that are on a building of one mode. Last: a mass beside the size of the wall
+   integer, parameter :: n_pairs = 8, strips = 4, late = 5, lifting = 6, alone = 7, heavy = 8
 
    !> Walls with the same warning
    type :: odd_walls_type
@@ -53,7 +56,8 @@ module dondolo_case_wall_warnings
       !> Those with values of each property, and gravities, that are less than usual (1) and more (2). At `pairs` those that are
       !> thicker than high (1), have the place of a load without a load (2), have stones that overlap by more than the wall is
       !> thick (3), bend before they rock (4), with their frequency parameter, and of those with a period: open late (5), with
-      !> opening / capacity, lift a mass (6), and are on a building of one mode (7), with its period. Not allocated: there are none
+      !> opening / capacity, lift a mass (6), and are on a building of one mode (7), with its period; and have a mass that does not
+      !> go with their size (8), with the density that it means. Not allocated: there are none
       type(odd_walls_type), allocatable :: odd(:, :)
       !> Strips with a period, beside their records and damage states
       type(elastic_warnings_type) :: elastic
@@ -79,12 +83,19 @@ contains
       density = find_property(wall_properties, 'density')
       self%walls = self%walls + 1
       call self%elastic%look(wall)
+      outside = .false.
+      values = 0.0_wp
       do i = 1, size(wall_properties)
          ! No overburden is no mistake: the least positive value
          call wall%input%find_range(i, low, high)
          if (.not. high > 0.0_wp) cycle
-         ! That of a body whose mass is given is per height and thickness of the wall, which need not be its volume
-         if (i == density .and. wall%input%has('mass')) cycle
+         if (i == density .and. wall%input%has('mass')) then
+            associate (usual => wall_properties(i))
+               values(heavy) = low
+               outside(heavy) = low < usual%usual_least/any_shape .or. low > usual%usual_most*any_shape
+            end associate
+            cycle
+         end if
          associate (property => wall_properties(i))
             call note(self, wall, i, [low < property%usual_least], [low])
             call note(self, wall, i, [.false., high > property%usual_most], [low, high])
@@ -95,12 +106,10 @@ contains
             & [pull, pull])
       end associate
       bears = .false.
-      outside = .false.
-      values = 0.0_wp
       select type (model => wall%model)
       type is (two_block_model_type)
          bears = model%bears
-         call look_at_strip(wall, outside(strips:), values(strips:))
+         call look_at_strip(wall, outside(strips:alone), values(strips:alone))
       end select
       associate (input => wall%input)
          outside(1) = input%number('height') < input%number('thickness')
@@ -115,8 +124,8 @@ contains
    subroutine look_at_strip(wall, outside, values)
       type(wall_type), intent(in) :: wall
       !> What to note, and a value of each
-      logical, intent(inout) :: outside(strips:)
-      real(wp), intent(inout) :: values(strips:)
+      logical, intent(inout) :: outside(strips:alone)
+      real(wp), intent(inout) :: values(strips:alone)
 
       associate (input => wall%input, joint => wall%mechanism%joint)
          if (.not. joint%exists) then
@@ -192,6 +201,7 @@ contains
          & 'is the overburden missing?', warnings)
       call warn_of_pair(self, 3, overlap_above_thickness, 'interlock_overlap is more than the thickness of the wall: is it '// &
          & 'the length of a stone?', warnings)
+      call warn_of_mass(self, warnings)
       call warn_of_bending(self, warnings)
       call warn_of_joints(self, warnings)
    end subroutine warn
@@ -254,6 +264,34 @@ contains
          call add(self, odd, warning, text, warnings)
       end associate
    end subroutine warn_of_pair
+
+   !> Warn of a mass that does not go with the size of its wall
+   subroutine warn_of_mass(self, warnings)
+      class(wall_warnings_type), intent(in) :: self
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+      character(len=:), allocatable :: text
+      real(wp) :: limit
+
+      associate (odd => self%odd(heavy, pairs), usual => wall_properties(find_property(wall_properties, 'density')))
+         if (odd%number == 0) return
+         if (odd%value < usual%usual_least) then
+            limit = usual%usual_least/any_shape
+            text = 'less than '
+         else
+            limit = usual%usual_most*any_shape
+            text = 'more than '
+         end if
+         warning = warning_type(mass_beside_size)
+         call warning%about('wall', odd%name)
+         call warning%with('density', odd%value)
+         call warning%with('limit', limit)
+         call add(self, odd, warning, 'its mass over height times thickness is '//rounded(odd%value)//' kg/m3, '//text// &
+            & to_text(limit)//' kg/m3: is it in kg, and of the whole body?', warnings)
+      end associate
+   end subroutine warn_of_mass
 
    !> Warn of strips whose joints bend before they open, which the rigid blocks leave out
    subroutine warn_of_bending(self, warnings)
