@@ -134,3 +134,12 @@ def test_snippets_define_their_names(root):
             if names:
                 missing[str(page.relative_to(root))] = names
     assert missing == {}
+
+
+def test_the_misfit_that_a_page_states(root):
+    """That of the table of docs/own_mechanism.md, to its digit but for rounding."""
+    text = (root / "docs/own_mechanism.md").read_text(encoding="utf-8")
+    code = re.search(r"(?s)```python\n(.*?wall\.misfit  # (\S+)\n)", text)
+    names = {}
+    exec(code[1], names)
+    assert 0.2 * float(code[2]) < names["wall"].misfit < 5.0 * float(code[2])
