@@ -12,7 +12,7 @@ module dondolo_front_door
 
    !> Commands of `python -m dondolo`
    character(len=*), parameter :: python_commands(*) = [character(len=9) :: &
-      & 'plot', 'report', 'relazione', 'xlsx', 'nrml', 'openquake', 'records', 'catalogue', 'serve']
+      & 'plot', 'report', 'relazione', 'xlsx', 'nrml', 'openquake', 'diff', 'records', 'catalogue', 'serve']
 
    !> What an installation without the package is told, before why, and the beginning of the names of its wheels
    character(len=*), parameter :: needs_package = ' needs the Python package dondolo', wheel = 'dondolo-'//dondolo_version_text//'-'

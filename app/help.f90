@@ -31,6 +31,7 @@ module dondolo_help
       & '   dondolo xlsx PREFIX          write the tables of a run into a workbook of Excel or LibreOffice', &
       & '   dondolo nrml PREFIX          write the curves of a run for OpenQuake', &
       & '   dondolo openquake PREFIX DIR write a job of OpenQuake for the walls of a run: damage and losses of a town', &
+      & '   dondolo diff OLD NEW         compare two runs, and say which change of dondolo explains it', &
       & '   dondolo records CATALOGUE    print a table of the records of a catalogue', &
       & '   dondolo catalogue FOLDER     make a catalogue of the accelerograms in a folder', &
       & '   dondolo serve [CASE.nml]     show a wall in the browser: its curve moves with the sliders', &

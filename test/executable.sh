@@ -513,7 +513,7 @@ check "completion: examples" equal "$(complete_word --example pin)" pinnacle
 # Commands that Python carries out, and the line where there is no Python with the package
 mkdir alone
 cp "${windows:-$exe}" alone/dondolo
-for command in plot report relazione xlsx nrml openquake records catalogue; do
+for command in plot report relazione xlsx nrml openquake diff records catalogue; do
    check "$command: in the help" grep -q "^   dondolo $command " <("$exe" --help)
    if on_posix; then
       said=$(PATH=/nowhere alone/dondolo $command nothing 2>&1)

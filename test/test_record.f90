@@ -705,22 +705,38 @@ contains
       call check_times('(f0.2)', 0.01_wp, 5000, 1)
       call check_times('5 digits', 0.005_wp, 30000, 5000)
       call check_times('single', 0.02_wp, 9000, 8998)
+      ! Decimals that resolve no step: the one that is given, if it fits all times
+      call check_times('(f0.2)', 0.005_wp, 8000, 0)
+      call check_times('(f0.2)', 0.005_wp, 8000, 0, given=0.005_wp)
+      call check_times('(f0.2)', 0.005_wp, 8000, 0, given=0.00501_wp)
+      call check_times('(f0.2)', 0.005_wp, 8000, 0, given=0.01_wp)
+      call check_times('(f0.2)', 1.0_wp/256.0_wp, 5000, 0, given=1.0_wp/256.0_wp)
+      call check_times('(f0.2)', 0.005_wp, 8000, 3000, given=0.005_wp, omitted=2)
+      call check_times('(f0.1)', 0.005_wp, 8000, 0, given=0.005_wp)
+      call check_times('(f0.3)', 1.0_wp/256.0_wp, 4000, 0, given=1.0_wp/256.0_wp)
    end subroutine test_steps
 
-   !> A file of times; one sample may be missing
-   subroutine check_times(layout, dt, count, missing)
+   !> A file of times; samples may be missing, one or as many as are omitted, and a step may be given
+   subroutine check_times(layout, dt, count, missing, given, omitted)
       character(len=*), intent(in) :: layout
       real(wp), intent(in) :: dt
       integer, intent(in) :: count, missing
+      real(wp), intent(in), optional :: given
+      integer, intent(in), optional :: omitted
       type(record_type) :: record
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: note
       character(len=40) :: line
       real(wp) :: time
-      integer :: unit, i
+      integer :: unit, i, last
+      logical :: is_resolved, is_right
+
+      last = missing
+      if (present(omitted)) last = missing + omitted - 1
 
       open (newunit=unit, file=scratch//'/times.txt', action='write', status='replace')
       do i = 0, count - 1
-         if (missing > 0 .and. i == missing) cycle
+         if (missing > 0 .and. i >= missing .and. i <= last) cycle
          time = i*dt
          select case (layout)
          case ('5 digits')
@@ -733,8 +749,18 @@ contains
          write (unit, '(a)') trim(adjustl(line))//',0.5'
       end do
       close (unit)
-      call read_record(scratch//'/times.txt', record, error, units='g')
-      if (missing > 0) then
+      is_resolved = .not. (layout == '(f0.1)' .or. layout == '(f0.2)' .and. dt < 0.01_wp)
+      is_right = missing == 0 .and. is_resolved
+      if (present(given)) then
+         call read_record(scratch//'/times.txt', record, error, dt=given, units='g')
+         if (missing == 0 .and. layout == '(f0.2)') is_right = abs(given - dt) <= 0.0_wp
+         note = record%metadata%get('reading')
+         call check((index(note, 'coarser than the step') > 0) .eqv. (is_right .and. .not. is_resolved), &
+            & 'note of coarse times, '//layout)
+      else
+         call read_record(scratch//'/times.txt', record, error, units='g')
+      end if
+      if (.not. is_right) then
          call check_error(error, 'must be equally spaced', layout//', '//to_text(count)//' lines, one missing')
       else
          call check_ok(error, layout//', '//to_text(count)//' lines')

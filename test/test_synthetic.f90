@@ -1,10 +1,12 @@
 !> Random numbers, the model of synthetic motion, and the stored suite.
 program test_synthetic
+   use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_record, only : record_type
-   use dondolo_record_random, only : new_random, random_type
+   use dondolo_record_random, only : new_hashed_random, new_random, random_type, split_mix
    use dondolo_record_synthetic, only : motion_model_type, new_motion_model, synthetic_dt, synthetic_record
    use dondolo_record_synthetic_suite, only : suite_record, synthetic44
    use dondolo_records_catalogue, only : read_catalogue
@@ -18,9 +20,63 @@ program test_synthetic
    call test_statistics(5.8_wp, 8.0_wp, 'rock', 'M 5.8 R 8 rock')
    call test_statistics(5.0_wp, 15.0_wp, 'deep', 'M 5 R 15 deep')
    call test_suite()
+   call test_hashed_seeds()
    call finish()
 
 contains
+
+   !> SplitMix64 against published values, and numbers of neighbouring seeds against each other
+   subroutine test_hashed_seeds()
+      ! The first words of the seed 1234567, https://rosettacode.org/wiki/Pseudo-random_numbers/Splitmix64, as signed numbers
+      integer(int64), parameter :: published(5) = [6457827717110365317_int64, 3203168211198807973_int64, &
+         & -8629252141511181193_int64, 4593380528125082431_int64, -2037821214251327795_int64]
+      integer, parameter :: seeds = 2000, draws = 6
+      type(random_type) :: random
+      integer(int64) :: state, word
+      real(wp) :: number(seeds, draws), plain(seeds)
+      integer :: i, k
+
+      call suite('hashed seeds')
+      state = 1234567_int64
+      do i = 1, size(published)
+         call split_mix(state, word)
+         call check(word == published(i), 'word '//to_text(i)//' of SplitMix64')
+      end do
+      do i = 1, seeds
+         random = new_hashed_random(i, 0)
+         do k = 1, draws
+            number(i, k) = random%next()
+         end do
+         random = new_random(i, 0)
+         plain(i) = random%next()
+      end do
+      ! Four standard errors of a correlation that is none
+      do k = 1, draws
+         call check(abs(related([(real(i, wp), i=1, seeds)], number(:, k))) < 4.0_wp/sqrt(real(seeds, wp)), &
+            & 'number '//to_text(k)//' does not follow the seed')
+         call check(abs(related(number(2:, k), number(:seeds - 1, k))) < 4.0_wp/sqrt(real(seeds, wp)), &
+            & 'number '//to_text(k)//' does not follow that of the seed before')
+         call check(abs(sum(number(:, k))/real(seeds, wp) - 0.5_wp) < 4.0_wp/sqrt(12.0_wp*real(seeds, wp)), &
+            & 'mean of number '//to_text(k))
+      end do
+      call check(related([(real(i, wp), i=1, seeds)], plain) > 0.999_wp, 'the first number of plain seeds follows them')
+      random = new_hashed_random(7, 3)
+      number(1, 1) = random%next()
+      random = new_hashed_random(7, 3)
+      call check_close(random%next(), number(1, 1), 0.0_wp, 'same seed and stream, same number')
+      random = new_hashed_random(7, 4)
+      call check(abs(random%next() - number(1, 1)) > 0.0_wp, 'other stream, other number')
+   end subroutine test_hashed_seeds
+
+   !> Correlation of two samples
+   pure real(wp) function related(one, other)
+      real(wp), intent(in) :: one(:), other(:)
+      real(wp) :: x(size(one)), y(size(one))
+
+      x = one - sum(one)/real(size(one), wp)
+      y = other - sum(other)/real(size(one), wp)
+      related = dot_product(x, y)/sqrt(dot_product(x, x)*dot_product(y, y))
+   end function related
 
    !> The generator against published values and against whole-number arithmetic done elsewhere
    subroutine test_random()

@@ -26,7 +26,6 @@ from dondolo.exchange.citing import cite as cite
 from dondolo.exchange.openquake_job import write_openquake as write_openquake
 from dondolo.exchange.reading import read_results as read_results
 from dondolo.exchange.running import run_case as run_case
-from dondolo.figures.themes import style as style
 from dondolo.hazard.hazard import HazardCurve as HazardCurve
 from dondolo.hazard.sites import read_site_hazards as read_site_hazards
 from dondolo.populations.study import typology as typology
@@ -43,6 +42,7 @@ from dondolo.records.record import Record as Record
 from dondolo.records.record_set import RecordSet as RecordSet
 from dondolo.records.synthetic import synthetic_records as synthetic_records
 from dondolo.records.target import TargetSpectrum as TargetSpectrum
+from dondolo.reporting.figure_style import style as style
 from dondolo.reporting.page import report as report
 from dondolo.reporting.relazione.writing import calculation_report as calculation_report
 from dondolo.reporting.workbook import write_workbook as write_workbook

@@ -19,6 +19,7 @@ from dondolo._fortran.origins import check_replaced
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar
 from dondolo.errors import silent, visible
+from dondolo.exchange.differences import differences
 from dondolo.exchange.exposure import functions_of
 from dondolo.figures.saving import mark_end, save_figure
 from dondolo.hazard.openquake import is_of_openquake
@@ -115,6 +116,7 @@ def _parser() -> argparse.ArgumentParser:
         help="width of the figures, in the style of journals: 88 for a column, 180 for a page",
         metavar="MM",
     )
+    plot.add_argument("--lang", help="en or it; DONDOLO_LANG by default, or en", metavar="LANGUAGE")
     plot.add_argument(
         "--animate", action="store_true", help="also write an animation (GIF) of a time history, of 30 s at most"
     )
@@ -222,6 +224,16 @@ def _parser() -> argparse.ArgumentParser:
         "--imt", help="OpenQuake's measure of curves against saavg(T1:T2): AvgSA, or AvgSA(T)", metavar="NAME"
     )
     openquake.set_defaults(run=_openquake)
+    diff = commands.add_parser(
+        "diff",
+        help="compare two runs, and say which change of dondolo explains it",
+        description="Compare two runs, or the runs of the same names in two folders: settings, inputs and every table, "
+        "row by row, by their names. Where two versions, or two builds of one, wrote them, the rows of Results that "
+        "change in CHANGELOG.md between them are printed that name what the runs have.",
+    )
+    diff.add_argument("old", help="prefix of the result files, their _run.json, or a folder", metavar="OLD")
+    diff.add_argument("new", help="the same of the other run", metavar="NEW")
+    diff.set_defaults(run=_diff)
     records = commands.add_parser(
         "records",
         help="print a table of the records of a catalogue",
@@ -278,6 +290,12 @@ def _serve(options: argparse.Namespace) -> None:
         raise dd.errors.DondoloError(f"serve needs {error.name}: pip install starlette uvicorn") from None
     lang = Language(options.lang).code
     serve(options.case, options.records, options.port, not options.no_browser, options.threads, lang)
+
+
+def _diff(options: argparse.Namespace) -> None:
+    """Print what differs between two runs."""
+    for line in differences(options.old, options.new):
+        print(visible(line))
 
 
 def _records(options: argparse.Namespace) -> None:
@@ -432,7 +450,8 @@ def _plot(options: argparse.Namespace) -> None:
     _import_matplotlib()
     if options.dpi is not None and not 10.0 <= options.dpi <= 2400.0:
         raise dd.errors.InputError(f"--dpi {options.dpi:g}: must lie between 10 and 2400")
-    with dd.style("screen" if options.width is None else "journal", width=options.width):
+    name = "screen" if options.width is None else "journal"
+    with dd.style(name, width=options.width, language=Language(options.lang).code):
         for prefix in options.prefixes:
             _plot_run(prefix, options)
 

@@ -7,7 +7,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, Literal, NamedTuple
 
-__all__ = ["DondoloError", "DondoloWarning", "InputError", "Interrupted", "MissingFileError", "Problem"]
+__all__ = [
+    "DondoloError",
+    "DondoloWarning",
+    "InputError",
+    "Interrupted",
+    "MissingFileError",
+    "NotKnownError",
+    "Problem",
+]
 
 # What is wrong, for programs; docs/files.md says what each means. The library has its own in base/text/error.f90.
 Code = Literal[
@@ -150,6 +158,19 @@ class MissingFileError(FileNotFoundError, InputError):
 
     # That of OSError comes first, and escapes nothing.
     __str__ = DondoloError.__str__
+
+
+class NotKnownError(InputError, AttributeError):
+    """A result does not have what was asked for, such as bounds of stripes that were not certified; `hasattr` is False.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+    >>> stripes = dd.multiple_stripe(wall, records, [0.6, 0.8], progress=False)
+    >>> hasattr(stripes, "theta_bounds")
+    False
+    """
 
 
 class DondoloWarning(UserWarning):

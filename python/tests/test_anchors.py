@@ -94,6 +94,10 @@ def test_a_thinner_leaf_and_neighbours():
     near = values(wall(tie(spacing=0.8)))
     assert near["band_force"] == pytest.approx(2.0 * 0.55 * 0.8 * 4e4 / 2.7, rel=1e-12) == near["anchor_force"]
     assert "band_force" not in values(wall())
+    # Up to a + b + 2 t, 1.8 m, also where the frusta of the plates, of a + 2 t, do not meet
+    apart = values(wall(tie(spacing=1.79)))
+    assert apart["band_force"] == apart["anchor_force"] < apart["shear_force"]
+    assert "band_force" not in values(wall(tie(spacing=1.81)))
 
 
 def test_the_same_wall_by_its_force(root):

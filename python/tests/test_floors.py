@@ -48,6 +48,18 @@ def test_against_scipy(records, period, damping, refine):
     assert floor.processing[-1].startswith("on a floor of <Building: ")
 
 
+@pytest.mark.parametrize("level", [0.0, 3.0])
+def test_walls_are_followed_as_long_as_their_building_vibrates(records, level):
+    """A facade on the ground too, whose base does not move: the building that it leans on does."""
+    house = dd.Building(0.3, damping=0.05, storeys=3, level=level, building_height=9.0)
+    record, wall = records[0], dd.OneSidedWall(6.0, 0.5, building=house)
+    felt = record.under(wall)
+    assert house.free_vibration == pytest.approx(0.3 * np.log(1e4) / (2.0 * np.pi * 0.05), rel=1e-12)
+    assert abs(felt.duration - record.duration - house.free_vibration) <= 1.000001 * felt.dt
+    if level == 0.0:
+        assert record.on_floor(house).duration == pytest.approx(record.duration)
+
+
 def test_participation():
     assert dd.Building(0.3, **HOUSE).participations == pytest.approx((9.0 / 7.0,), rel=1e-15)
     several = dd.Building([0.3, 0.1], participation=[1.2, -0.3], damping=0.1)

@@ -1,5 +1,7 @@
-"""docs/troubleshooting.md, matlab_excel.md and python.md: what they quote, run and name exists."""
+"""Pages: what they quote, run and name exists, and so do the pages and the files that they link to."""
 
+import ast
+import builtins
 import os
 import re
 import shutil
@@ -75,3 +77,69 @@ def test_overview_names_what_exists(root):
     assert [path for path in re.findall(r"`(\w+)\.\w+\(", page) if path not in METHODS] == []
     for thing, method in re.findall(r"`(\w+)\.(\w+)\(", page):
         assert hasattr(METHODS[thing], method), f"{thing}.{method}"
+
+
+def pages(root):
+    """All pages for users, and their texts."""
+    found = [*root.glob("docs/**/*.md"), *root.glob("*.md")]
+    found = [one for one in found if "generated" not in one.parts]
+    assert len(found) > 50
+    return {one: one.read_text(encoding="utf-8") for one in found}
+
+
+def test_links_lead_to_what_a_clone_has(root):
+    """Pages that only a build makes are linked to by one section, which says so; docs/site is read in the site."""
+    broken = []
+    for page, text in pages(root).items():
+        plain = re.sub(r"(?s)```.*?```|`[^`\n]*`", "", text)
+        if page.name == "reference.md":
+            plain, made = plain.split("## Pages that a build makes")
+            assert set(re.findall(r"\]\(generated/(\w+)\.md\)", made)) == {
+                "variables",
+                "columns",
+                "command_line",
+                "api",
+            }
+        for link in re.findall(r"\]\(([^)#\s]+)[^)]*\)", plain):
+            is_far = re.match(r"\w+:", link) or "site" in page.relative_to(root).parts
+            if not is_far and not (page.parent / link).exists():
+                broken.append(f"{page.relative_to(root)}: {link}")
+    assert broken == []
+
+
+def undefined(code, known):
+    """Names of a piece of Python that no line of it, or of what was before, defines; what it defines is added."""
+    tree = ast.parse(code)
+    nodes = list(ast.walk(tree))
+    for node in nodes:
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            known |= {(alias.asname or alias.name).split(".")[0] for alias in node.names}
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            known.add(node.name)
+        elif isinstance(node, ast.arg):
+            known.add(node.arg)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            known.add(node.id)
+    return sorted({node.id for node in nodes if isinstance(node, ast.Name)} - known)
+
+
+def test_snippets_define_their_names(root):
+    """A reader who runs the snippets of a page from its top on meets no name that none of them defines."""
+    assert undefined("a = b", set()) == ["b"]
+    missing = {}
+    for page, text in pages(root).items():
+        known = set(dir(builtins))
+        for code in re.findall(r"(?s)```python\n(.*?)```", text):
+            names = undefined(code, known)
+            if names:
+                missing[str(page.relative_to(root))] = names
+    assert missing == {}
+
+
+def test_the_misfit_that_a_page_states(root):
+    """That of the table of docs/own_mechanism.md, to its digit but for rounding."""
+    text = (root / "docs/own_mechanism.md").read_text(encoding="utf-8")
+    code = re.search(r"(?s)```python\n(.*?wall\.misfit  # (\S+)\n)", text)
+    names = {}
+    exec(code[1], names)
+    assert 0.2 * float(code[2]) < names["wall"].misfit < 5.0 * float(code[2])

@@ -2,6 +2,8 @@
 
 import itertools
 import re
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import matplotlib
 
@@ -17,6 +19,8 @@ from matplotlib.text import Text
 import dondolo as dd
 from dondolo.figures import style
 from dondolo.figures.options import PARTS, Options
+from dondolo.figures.wording import say
+from dondolo.reporting.language import Language
 
 LEVELS = np.linspace(0.1, 1.2, 12)
 # Panels of those that have several; letters and legends of these need more height without a layout engine
@@ -367,3 +371,54 @@ def test_a_history_ends_where_the_motion_does():
     above, below = motion.plot().figure.axes
     assert last < below.get_xlim()[1] < last + 1.1 < motion.time[-1]
     assert above.get_xlim() == below.get_xlim()
+
+
+def texts(drawn):
+    """All words and numbers of a figure."""
+    figure = drawn.figure
+    figure.canvas.draw()
+    return [text.get_text() for text in figure.findobj(Text) if text.get_text()]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_figures_in_italian(drawings, name):
+    """By the style the same words and decimal marks as in a report, and English again behind its block."""
+    draw = drawings[name]
+    english = texts(draw())
+    with Language("it").in_force():
+        report = texts(draw())
+    with dd.style(language="it"):
+        assert texts(draw()) == report
+        with Language("en").in_force():
+            assert texts(draw()) == english
+    assert texts(draw()) == english
+    # Spectra of records have no Italian in reports either.
+    assert (report == english) == (name in ("spectra", "selection", "floor"))
+
+
+def test_the_language_of_a_style_is_that_of_figures_alone(wall, few, curve, tmp_path):
+    stripes = dd.multiple_stripe(wall, few, [0.4, 0.8], progress=False)
+    facts, shown = repr(stripes), few[0]._repr_html_()
+    with dd.style(language="it"):
+        assert (repr(stripes), few[0]._repr_html_()) == (facts, shown)
+        assert curve.plot().get_ylabel() == "probabilità di collasso"
+        assert any("," in label.get_text() for label in curve.plot().get_yticklabels())
+        # The style of another thread is the same.
+        with ThreadPoolExecutor(1) as pool:
+            assert pool.submit(say, "probability").result() == say("probability") != "probability"
+    with pytest.raises(dd.errors.InputError, match="language = 'fr': must be one of 'en', 'it'"):
+        dd.style(language="fr")
+
+
+@pytest.mark.parametrize("how", ["option", "environment"])
+def test_figures_of_the_shell_in_italian(run, root, tmp_path, monkeypatch, how):
+    case = (root / "data/cases/parapet.nml").read_text(encoding="utf-8")
+    (tmp_path / "case.nml").write_text(case.replace("../records/", f"{root}/data/records/"), encoding="utf-8")
+    assert run("case.nml").returncode == 0
+    prefix = next(tmp_path.glob("**/*_run.json")).as_posix().removesuffix("_run.json")
+    if how == "environment":
+        monkeypatch.setenv("DONDOLO_LANG", "it")
+    done = run("plot", prefix, "--format", "svg", *(["--lang", "it"] if how == "option" else []))
+    assert done.returncode == 0, done.stderr
+    # Letters of an SVG are drawn, and named in comments.
+    assert "probabilità di collasso" in Path(f"{prefix}_fragility.svg").read_text(encoding="utf-8")

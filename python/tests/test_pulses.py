@@ -302,7 +302,6 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch, replace_pro
         ({"solver": dd.Solver(edp_limit=50.0)}, "edp_limit = 50"),
         ({"tolerance": 0.0}, "tolerance = 0: must lie between"),
         ({"threads": 1.5}, "threads = 1.5: must be an integer, between 0 and 1024"),
-        ({"solver": dd.Solver(engine="magic")}, "engine = 'magic'"),
         ({"pulse": lambda amplitude, frequency: 3.0}, "pulse: must return a Record, not float"),
         ({"pulse": lambda amplitude, frequency: dd.Record([0.0, 0.0], 1.0)}, "pulse: is zero at 0.5 Hz"),
         ({"wall": 3.0}, "wall: must be a Wall, not float"),

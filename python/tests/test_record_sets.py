@@ -38,12 +38,28 @@ def test_table(records):
     high = [record.intensity("sa(0.5)") > 0.5 or record.metadata["realisation"] == "0" for record in records]
     assert [record.name for record in few] == [one.name for one, here in zip(records, high, strict=True) if here]
     assert list(records.sort("pga", descending=True)["pga"]) == sorted(records["pga"], reverse=True)
+
     assert len(records[:3] + records[3:]) == 12
     for wrong in ("pga >", "nothing > 1", "pga", "open('x')", "pga > 1e9"):
         with pytest.raises(dd.errors.InputError):
             records.filter(wrong)
     with pytest.raises(dd.errors.InputError, match=r"factor = -1: must be positive"):
         dd.RecordSet(records, factor=-1.0)
+
+
+@pytest.mark.parametrize("values", [("2", "", "10", "2", ""), ("b", "", "a10", "b", "")], ids=["numbers", "texts"])
+def test_missing_values_are_sorted_last(values):
+    """In both directions, and rows of equal values keep their order."""
+    samples = np.sin(np.arange(50.0))
+    made = [
+        dd.Record(samples, 0.01, f"r{i}", metadata={"magnitude": value} if value else {"other": "1"})
+        for i, value in enumerate(values)
+    ]
+    records = dd.RecordSet(made)
+    rising, falling = (records.sort("magnitude", descending=way)["record"].tolist() for way in (False, True))
+    first = ["r0", "r3", "r2"] if values[0] == "2" else ["r2", "r0", "r3"]
+    assert rising == [*first, "r1", "r4"]
+    assert falling == (["r2", "r0", "r3"] if values[0] == "2" else ["r0", "r3", "r2"]) + ["r1", "r4"]
 
 
 def test_each_level_runs_its_records_alone(records, sets, parapet):

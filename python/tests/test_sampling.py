@@ -82,6 +82,29 @@ def test_choice():
     assert dd.distributions.Choice((5.0,)).ppf(p).tolist() == [5.0] * 6
 
 
+@pytest.mark.parametrize(
+    "distribution",
+    [
+        dd.distributions.Uniform(1.0, 3.0),
+        dd.distributions.Triangular(1.0, 2.0, 3.0),
+        dd.distributions.Normal(2.0, 0.5, low=1.0, high=3.0),
+        dd.distributions.Lognormal(2.0, 0.2),
+        dd.distributions.Choice((1.0, 2.0, 3.0)),
+    ],
+    ids=lambda one: type(one).__name__,
+)
+def test_quantiles_of_anything_like_an_array(distribution):
+    """Of a number, a list and a table in its shape; what is no probability has no quantile."""
+    p = np.array([[0.1, 0.5], [0.9, 0.2]])
+    table = distribution.ppf(p)
+    assert table.shape == p.shape
+    assert np.array_equal(distribution.ppf(p.tolist()), table)
+    assert np.array_equal(distribution.ppf(tuple(p[0])), table[0])
+    assert np.ndim(distribution.ppf(0.5)) == 0
+    assert distribution.ppf(0.5) == table[0, 1]
+    assert np.isnan(distribution.ppf([-0.1, 1.1, np.nan])).all()
+
+
 class Stuck:
     """An object of one's own that has quantiles, of whatever shape."""
 

@@ -89,7 +89,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         records[0], dd.RecordSet(few), dd.RecordSet(records).select(target, 5), records[0].spectrum([0.1, 1.0]), site,
         target, stripes, curve, curve.bootstrap(n_resamples=20), curve.goodness_of_fit(), ida, ida.fit(),
         curve.with_model_error(-0.1, 0.3),
-        dd.cloud(wall, records),
+        dd.cloud(wall, records), curve.logit(),
         curve.compare(dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
         people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
         dd.simulate(wall, few[0]), case, dd.run_case(path, progress=False), dd.check_ntc(wall, site),
@@ -115,7 +115,7 @@ def test_every_result_is_a_table(things):
     """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
     plain = {
         "Body", "Boundary", "Certified", "Choice", "Curve", "DistributedSpring", "GivenMass", "Group",
-        "Guide", "InertialMass", "Interlock", "Load", "Logistic", "Lognormal", "Normal", "Part", "Pin",
+        "Guide", "InertialMass", "Interlock", "Load", "Lognormal", "Normal", "Part", "Pin",
         "PointLoad", "PointMass", "PointThrust", "Problem", "Regression", "RotD", "Section", "Sector",
         "Solver", "Spring", "State", "Terms", "Thrust", "Tie", "Triangular", "Uniform", "Wall", "Wedge",
         "Window", "Work",
@@ -175,3 +175,39 @@ def test_a_certificate_is_shown(wall, few):
     counts = [int(word) for word in rows(sure)["certified"].replace(",", "").split() if word.isdigit()]
     assert sum(counts) == sure.edp.size
     assert counts[0] == np.count_nonzero(sure.status == dd.results.Certified.DOUBLE)
+
+
+def test_properties_are_there_or_are_not(things):
+    """What inspects an object, as hasattr, meets no other error than that of an attribute that is not there."""
+    looked = 0
+    for thing in things.values():
+        for name in dir(thing):
+            hasattr(thing, name)
+            looked += 1
+    assert looked > 1000
+    assert not hasattr(things["Stripes"], "theta_bounds")
+    with pytest.raises(dd.errors.NotKnownError, match="theta_bounds: only of certified stripes"):
+        _ = things["Stripes"].theta_bounds
+    inspect.getmembers(things["Stripes"])
+
+
+def test_everything_is_equal_to_itself_and_has_a_hash(things, stripes):
+    """Arrays in a result decide neither."""
+    for name, thing in things.items():
+        assert (thing == thing) is True, name
+        assert (thing == things["Site"]) is (name == "Site"), name
+        if name not in ("TabulatedWall", "Chain"):
+            hash(thing)
+    one, other = stripes.fit().logit(), stripes.fit().logit()
+    assert one != other
+    assert len({one, other, one}) == 2
+
+
+def test_a_logistic_curve_shows_its_numbers(stripes):
+    curve = stripes.fit().logit()
+    shown = rows(curve)
+    assert shown["theta"] == f"{curve.theta:.6g} g"
+    assert shown["b1"].startswith(f"{curve.b1:.6g} (standard error ")
+    assert repr(curve).startswith("<Logistic: measure pga, histories ")
+    none = dd.cloud(dd.OneSidedWall(1.5, 0.25), [dd.Record(np.sin(np.arange(99.0)), 0.01, "weak")], scale=0.1).collapse
+    assert rows(none)["status"] == "none"

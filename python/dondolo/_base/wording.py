@@ -26,7 +26,7 @@ class Wording(NamedTuple):
 
 
 ENGLISH = Wording()
-_CURRENT: ContextVar[Wording] = ContextVar("wording", default=ENGLISH)
+_CURRENT: ContextVar[Wording | None] = ContextVar("wording", default=None)
 _LINE_END = re.compile(r"\s*\n\s*")
 
 
@@ -48,9 +48,18 @@ def in_words_of(wording: Wording) -> Iterator[None]:
         _CURRENT.reset(token)
 
 
+def of_document() -> Wording | None:
+    """The language of the document that is being written; None outside of one."""
+    return _CURRENT.get()
+
+
 def in_english() -> bool:
     """Whether English is written."""
-    return _CURRENT.get() is ENGLISH
+    return _current() is ENGLISH
+
+
+def _current() -> Wording:
+    return _CURRENT.get() or ENGLISH
 
 
 def key(sentence: str) -> str:
@@ -63,7 +72,7 @@ def say(sentence: str, **values: Any) -> str:
 
     Catalogues are made of the sentences that are literals in calls of this function, and of those marked by ``_``.
     """
-    current = _CURRENT.get()
+    current = _current()
     if current is ENGLISH:
         return sentence.format(**values) if values else sentence
     known = key(sentence)
@@ -74,4 +83,4 @@ def say(sentence: str, **values: Any) -> str:
 
 def decimal(text: str) -> str:
     """The digits of a number with the decimal mark of the language in force."""
-    return text.replace(".", _CURRENT.get().mark)
+    return text.replace(".", _current().mark)

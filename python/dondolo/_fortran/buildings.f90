@@ -42,7 +42,7 @@ contains
          call parcel%put('participation_top', building%participation_top)
          call parcel%put('diaphragm_damping', building%diaphragm%damping)
          call parcel%put('diaphragm_participation', building%diaphragm%participation)
-         call parcel%put('free_vibration', building%free_vibration())
+         call parcel%put('free_vibration', building%longest_vibration())
       end if
       call send(parcel, error, sent)
    end subroutine describe_building

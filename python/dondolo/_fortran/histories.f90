@@ -28,7 +28,8 @@ module histories
    implicit none
    private
 
-   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_levels, warn_of_scales, warn_of_errors
+   public :: certify, check_settings, is_doubtful, simulate, run_scaled
+   public :: warn_of_motion, warn_of_levels, warn_of_scales, warn_of_errors
 
    !> Memory that sending a row of a time history takes: six columns, twice [bytes]
    real(c_double), parameter :: bytes_of_row = 96.0_c_double
@@ -85,6 +86,17 @@ contains
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       call send(parcel, error, sent)
    end subroutine simulate
+
+   !> Check what is known of settings without a wall
+   subroutine check_settings(engine, rtol, atol, edp_limit, failure)
+      character(len=*), intent(in) :: engine
+      real(c_double), intent(in) :: rtol, atol, edp_limit
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(error_type), allocatable :: error
+
+      call check_solver(as_solver(engine, rtol, atol, edp_limit, 0_c_int, 0_c_int), error)
+      call report(error, failure)
+   end subroutine check_settings
 
    !> Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
    subroutine run_scaled(walls, suite, record, scale, k, engine, threads, rtol, atol, edp_limit, estimate_error, &

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray, as_flag, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check, constants, receive, text_lines, unpack_warnings
+from dondolo._fortran.library import as_text, check, constants, receive, text_lines, unpack_warnings
 from dondolo.errors import DondoloWarning
 
 
@@ -41,6 +41,11 @@ def settings(
         estimate_error=as_flag("estimate_error", estimate_error),
         collapses_only=bool(collapses_only),
     )
+
+
+def check_settings(engine: str, given: Settings) -> None:
+    """Refuse settings that the executable would refuse of any wall."""
+    check(_core.histories.check_settings(as_text("engine", engine), given.rtol, given.atol, given.edp_limit))
 
 
 def is_doubtful(edp: FloatArray, edp_error: FloatArray, edp_limit: float) -> NDArray[np.bool_]:

@@ -16,6 +16,7 @@ from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import SMALL_LEVEL, Polarity, new_request
+from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_fits import sample_of
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
@@ -156,6 +157,7 @@ def compare_intensities(
     *,
     n_levels: int = 15,
     polarity: Polarity = "as_recorded",
+    solver: Solver | None = None,
     n_resamples: int = 1000,
     rng: int | np.random.Generator | None = 0,
     events: Sequence[Any] | None = None,
@@ -181,6 +183,8 @@ def compare_intensities(
         Stripes of each analysis, at least 2.
     polarity : {'as_recorded', 'reversed', 'both'}
         As for `multiple_stripe`.
+    solver : Solver, optional
+        Tolerances, collapse limit and engine.
     n_resamples : int
         Samples of records for the intervals of the ratios.
     rng : int, Generator or None
@@ -220,10 +224,9 @@ def compare_intensities(
     analyses, curves = [], []
     with deferred(as_event(stop)):
         for im in names:
-            grid = _levels(wall, several, im, count, polarity, threads)
-            analyses.append(
-                multiple_stripe(wall, several, grid, im=im, polarity=polarity, threads=threads, progress=progress)
-            )
+            grid = _levels(wall, several, im, count, polarity, solver, threads)
+            how: dict[str, Any] = {"polarity": polarity, "solver": solver, "threads": threads, "progress": progress}
+            analyses.append(multiple_stripe(wall, several, grid, im=im, **how))
             curves.append(analyses[-1].fit(events=events))
             if not curves[-1].has_fit:
                 raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
@@ -247,12 +250,20 @@ def compare_intensities(
     )
 
 
-def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polarity: str, threads: int) -> FloatArray:
+def _levels(
+    wall: Wall,
+    records: tuple[Record, ...],
+    im: str,
+    count: int,
+    polarity: Polarity,
+    solver: Solver | None,
+    threads: int,
+) -> FloatArray:
     """Levels that cover a curve from nearly none to nearly all collapses."""
     pga = np.array([record.peak_acceleration for record in records])
 
     def plan_at(levels: Sequence[float]) -> Any:
-        request = new_request((wall,), records, levels, im, polarity, None, threads)
+        request = new_request((wall,), records, levels, im, polarity, solver, threads)
         return request, request.plan()
 
     def collapses_at(level: float) -> tuple[int, int]:

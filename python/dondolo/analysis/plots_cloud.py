@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import say
 from dondolo.analysis.cloud import Cloud
 from dondolo.figures import style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

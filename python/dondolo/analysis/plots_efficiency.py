@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import decimal, say
 from dondolo._fortran.records import describe_measure
 from dondolo.analysis.efficiency import IntensityComparison
 from dondolo.figures import style
 from dondolo.figures.curves import POINTS
 from dondolo.figures.options import Options
+from dondolo.figures.wording import decimal, say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

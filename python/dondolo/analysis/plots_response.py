@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.wording import say
 from dondolo.analysis.response import Response
 from dondolo.figures import style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import say
 from dondolo.walls.parts import parts_of
 
 if TYPE_CHECKING:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.shown import span
-from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.incremental import Incremental
@@ -17,6 +16,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.curves.plots import parameters
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

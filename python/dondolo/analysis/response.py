@@ -212,9 +212,10 @@ class Response(Shown, Saved):
         Axes
             Metres, to scale.
         """
+        from dondolo.figures import wording
         from dondolo.walls.drawing import draw_wall
 
-        return draw_wall(self.wall, self.peak_rotation, ax, options, decimal(f", EDP = {self.edp:.3g}"))
+        return draw_wall(self.wall, self.peak_rotation, ax, options, wording.decimal(f", EDP = {self.edp:.3g}"))
 
     def animate(self, *, frames_per_second: float = 25, speed: float = 1.0) -> FuncAnimation:
         """Animate the motion: the wall beside its rotation.

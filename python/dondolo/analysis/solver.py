@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from dondolo._base.arguments import instance_of
-from dondolo._fortran.histories import Settings, settings
+from dondolo._base.arguments import as_number, instance_of
+from dondolo._fortran.histories import Settings, check_settings, settings
 from dondolo._fortran.library import build_variant
 
 
@@ -23,9 +23,10 @@ class Solver:
     engine : {'auto', 'lanes', 'rk45'}
         'lanes' integrates several histories at a time, 'rk45' one; 'auto' selects the one that suits the task.
 
-    Notes
-    -----
-    An analysis refuses invalid values; the message is that of the executable.
+    Raises
+    ------
+    InputError
+        A value that is out of its range; the message is that of the executable.
 
     Examples
     --------
@@ -61,6 +62,13 @@ class Solver:
         True
         """
         return build_variant()
+
+    def __post_init__(self) -> None:
+        values = {name: getattr(self, name) for name in ("rtol", "atol", "edp_limit")}
+        given = {name: None if value is None else as_number(name, value) for name, value in values.items()}
+        for name, value in given.items():
+            object.__setattr__(self, name, value)
+        check_settings(self.engine, self._settings())
 
     def _settings(
         self, estimate_error: bool = False, collapses_only: bool = False, edp_limit: float | None = None

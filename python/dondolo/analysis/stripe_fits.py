@@ -16,7 +16,7 @@ from dondolo.curves.damage_states import fit_states
 from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
-from dondolo.errors import DondoloWarning, InputError, silent
+from dondolo.errors import DondoloWarning, NotKnownError, silent
 from dondolo.walls.wall import upload
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ def exceedance_bounds(stripes: Stripes, edp_threshold: float) -> tuple[NDArray[n
 def _certified_edps(stripes: Stripes, asked: str) -> tuple[FloatArray, FloatArray]:
     """The lowest and the highest EDPs."""
     if stripes.edp_lowest is None or stripes.edp_highest is None:
-        raise InputError(f"{asked}: only of certified stripes")
+        raise NotKnownError(f"{asked}: only of certified stripes")
     return stripes.edp_lowest, stripes.edp_highest
 
 

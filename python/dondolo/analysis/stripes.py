@@ -119,7 +119,12 @@ class Stripes(Outcomes, Shown, Saved):
     def theta_bounds(self) -> tuple[float, float]:
         """Theta with every history whose outcome is not computable counted as a collapse, and with none.
 
-        NaN where there is no curve; only of certified stripes.
+        NaN where there is no curve.
+
+        Raises
+        ------
+        NotKnownError
+            Stripes that are not certified.
         """
         ((low, high),) = state_bounds(self, [self.edp_limit], "separate", "theta_bounds")
         return low, high

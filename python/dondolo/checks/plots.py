@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import shown_probability
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import decimal, say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import tails
-from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.curve import Curve
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.risk import Risk, between, probability
 from dondolo.figures import style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import in_words_of_figures, say
 from dondolo.hazard.plots import fractile_lines, intensity_axis, plot_hazard
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None, given: dict[str, Any]) -> A
     style.y_label(above, say("exceeded\n[1/year]"))
     style.title(
         above,
-        say("mean annual frequency of collapse:\n{bounds}", bounds=between(*risk.bounds, say("a year"), 3)),
+        say("mean annual frequency of collapse:\n{bounds}", bounds=_between(risk, say("a year"))),
         options,
     )
     style.main(middle, middle.plot(x, probability(risk.fragility, x), **line)[0])
@@ -53,6 +53,12 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None, given: dict[str, Any]) -> A
     style.legend(below, options, also=(above, middle))
     top: Axes = above
     return top
+
+
+def _between(risk: Risk, unit: str) -> str:
+    """The bounds of the annual frequency."""
+    with in_words_of_figures():
+        return between(*risk.bounds, unit, 3)
 
 
 def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int, given: dict[str, Any]) -> Axes:
@@ -81,7 +87,7 @@ def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int, given: dict[str, 
     ax.margins(y=0.08)
     above = 100.0 * risk.above[0] / whole
     beyond = f";\n{above:.2g} % from above the levels" if above >= 0.05 else ""
-    style.title(ax, f"{between(*risk.bounds, 'collapses a year', 3)}{beyond}", options)
+    style.title(ax, f"{_between(risk, 'collapses a year')}{beyond}", options)
     style.y_label(ax, "share of the frequency [%]")
     intensity_axis(ax, risk.hazard.im, edges[0], edges[-1])
     style.legend(ax, options)

@@ -17,10 +17,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_probabilities, shaped, tails
+from dondolo._base.shown import Shown
 from dondolo._fortran.curves import fit_logit, normal_or_student
+from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.curve import Curve
 from dondolo.curves.delta_method import half_width, positive_levels
+from dondolo.curves.wording import shown_error
 from dondolo.errors import DondoloError
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
@@ -61,8 +64,8 @@ class Regression:
 
 
 @part_of_results
-@dataclass(frozen=True, kw_only=True)
-class Logistic(Curve):
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Logistic(Curve, Shown):
     """P(x) = 1/(1 + exp(-(b0 + b1 ln x))), or why there is no such curve.
 
     Attributes
@@ -213,6 +216,21 @@ class Logistic(Curve):
     def _need_fit(self) -> None:
         if self.status != "ok":
             raise DondoloError(f"no curve was fitted (status '{self.status}')")
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = blank_unit(self.im)
+        facts = [("measure", self.im)] if self.im else []
+        facts.append(("histories", f"{self.histories}, of the kind {self.count}"))
+        if self.status == "ok":
+            facts += [
+                ("b0", f"{self.b0:.6g}" + shown_error("standard error", self.se_b0)),
+                ("b1", f"{self.b1:.6g}" + shown_error("standard error", self.se_b1)),
+                ("theta", f"{self.theta:.6g}{unit}"),
+                ("standard errors", self.errors),
+            ]
+        elif self.status == "separated":
+            facts.append(("theta", f"between {self.bracket[0]:g} and {self.bracket[1]:g}{unit}"))
+        return [*facts, ("status", self.status)]
 
     def _at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:
         """Probabilities, with a value for the gap of a separated sample.

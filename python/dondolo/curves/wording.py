@@ -39,8 +39,8 @@ def facts_of(curve: Fragility) -> list[tuple[str, str]]:
     ends = [("upper_asymptote", f"{curve.upper_asymptote:.6g}")] if curve.upper_asymptote < 1.0 else []
     return [
         *what,
-        ("theta", f"{curve.theta:.6g}{unit}" + _shown_error("standard error of ln theta", curve.se_ln_theta)),
-        ("beta", f"{curve.beta:.6g}" + _shown_error("standard error", curve.se_beta)),
+        ("theta", f"{curve.theta:.6g}{unit}" + shown_error("standard error of ln theta", curve.se_ln_theta)),
+        ("beta", f"{curve.beta:.6g}" + shown_error("standard error", curve.se_beta)),
         ("standard errors", errors_in_words(curve) if curve.has_errors else f"none: {errors_in_words(curve)}"),
         *ends,
         *([("log likelihood", f"{curve.log_likelihood:.6g}")] if math.isfinite(curve.log_likelihood) else []),
@@ -69,5 +69,6 @@ def errors_in_words(curve: LognormalCurve) -> str:
     return say(WHY_NO_ERRORS[curve.errors])
 
 
-def _shown_error(what: str, error: float) -> str:
+def shown_error(what: str, error: float) -> str:
+    """The standard error of a parameter in brackets; nothing where there is none."""
     return f" ({what} {error:.3g})" if np.isfinite(error) else ""

@@ -13,6 +13,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, argument_error, instance_of
 from dondolo._base.files import as_file, read_bytes
 from dondolo._fortran.files import whole_file
+from dondolo._fortran.library import constants
 from dondolo._fortran.origins import derived_mark
 from dondolo._storage import tables
 from dondolo.curves.losses import loss_levels, write_consequences, write_vulnerability
@@ -180,7 +181,7 @@ def _write_exposure(model: Path, table: Path, assets: Assets) -> None:
     root = ElementTree.Element("nrml", {"xmlns": space})
     about = {"id": "walls", "category": "buildings", "taxonomySource": "dondolo"}
     exposure = ElementTree.SubElement(root, "exposureModel", about)
-    ElementTree.SubElement(exposure, "description").text = "Walls, by dondolo"
+    ElementTree.SubElement(exposure, "description").text = f"Walls, by dondolo {constants().version}"
     kinds = ElementTree.SubElement(ElementTree.SubElement(exposure, "conversions"), "costTypes")
     ElementTree.SubElement(kinds, "costType", {"name": "structural", "type": "aggregated", "unit": "value"})
     ElementTree.SubElement(exposure, "occupancyPeriods").text = "" if assets.occupants is None else "night"
@@ -236,7 +237,7 @@ def _write_hazard(
     # level count as if they were at it, as the lower bound of `Risk` has them.
     levels, frequency = np.append(levels, _NEVER * levels[-1]), np.append(frequency, 0.0)
     titles = ["lon", "lat", "depth", *(f"poe-{times(level, unit)}" for level in levels)]
-    about = f"generated_by='dondolo', kind='mean', investigation_time={years!r}, imt='{imt}'"
+    about = f"generated_by='dondolo {constants().version}', kind='mean', investigation_time={years!r}, imt='{imt}'"
     cells = [*centre, 0.0, *-np.expm1(-frequency * years)]
     row = ",".join(repr(float(cell)) for cell in cells)
     tables.write_lines(path, [f'#{"," * (len(titles) - 1)}"{about}"', ",".join(titles), row])

@@ -61,7 +61,7 @@ _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not i
 _LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WALL_LISTS}
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Results(Shown):
     """Results of a case, run here or read from files; those of other tasks are None.
 

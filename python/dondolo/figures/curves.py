@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

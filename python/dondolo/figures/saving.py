@@ -9,6 +9,7 @@ from dondolo._fortran.files import whole_file
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo.figures.layout import lay_out
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import set_decimal_marks
 
 # Formats of Matplotlib that have metadata, and where in it the mark is
 _METADATA = {"png": "Software", "pdf": "Creator", "svg": "Creator", "ps": "Creator", "eps": "Creator"}
@@ -48,6 +49,7 @@ def save_figure(figure: Any, path: str, kind: str, run: str, dpi: float | None =
     if kind == "png":
         # As small as by the default of 6, in two thirds of the time
         options["pil_kwargs"] = {"compress_level": 3}
+    set_decimal_marks(figure)
     lay_out(figure)
     with whole_file(path) as part:
         figure.savefig(part, format=kind, **options)

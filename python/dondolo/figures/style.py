@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import argument_error
-from dondolo._base.wording import decimal, say
 from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
 from dondolo.figures.options import Options
 from dondolo.figures.themes import PAGE, theme
+from dondolo.figures.wording import decimal, say, set_decimal_marks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -182,7 +182,8 @@ def plain_ticks(axis: Axis) -> None:
 
 
 def title(ax: Axes, text: str, options: Options, **looks: Any) -> None:
-    """The title of a figure, unless a user wants another or none."""
+    """The title of a figure, unless a user wants another or none; its numbers get the mark of the language."""
+    set_decimal_marks(ax.figure)
     _set_title(ax, options.title(text), **looks)
 
 

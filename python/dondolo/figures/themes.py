@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from dondolo._base.arguments import argument_error, as_number, one_of
+from dondolo._base.wording import ENGLISH, Wording
 
 # Widths of a column of a journal, and of its page, are 88 and 180 mm; a page is not higher than this [mm].
 COLUMN = 88.0
@@ -52,13 +53,14 @@ _JOURNAL: dict[Any, Any] = _SCREEN | {
 
 @dataclass(frozen=True)
 class Theme:
-    """A style: settings of Matplotlib, sizes of letters [pt], width [mm], and whether panels have letters."""
+    """A style: settings of Matplotlib, sizes of letters [pt], width [mm], whether panels have letters, and language."""
 
     rc: Mapping[Any, Any] = field(default_factory=lambda: MappingProxyType(_SCREEN))
     legend: float = 8.5
     note: float = 7.5
     width: float | None = None
     letters: bool = False
+    wording: Wording = ENGLISH
 
 
 _THEMES = {
@@ -93,42 +95,10 @@ class _Style(AbstractContextManager[None]):
         _put(self._before.theme, is_journal=bool(self._before.replaced))
 
 
-def style(name: str = "screen", *, width: float | None = None) -> AbstractContextManager[None]:
-    """Choose the style of figures: at once, or for a block if used as a context manager.
-
-    In the style 'journal' all text has its size in points (8, in legends and at ticks 7), PDF and PostScript embed
-    their fonts as TrueType, panels have the letters (a), (b), (c), and a file is as wide as its figure. Your own axes
-    have the same settings; save a figure while the style is in force. In every style a mechanism has one colour, and
-    dashes tell curves apart in grey.
-
-    Parameters
-    ----------
-    name : {'screen', 'journal'}
-        The style; 'screen' is the one that dondolo begins with.
-    width : float, optional
-        Width of new figures [mm]: 88 and 180 are usual for a column and a page. 88 in the style 'journal' if left out;
-        on the screen each figure has a width of its own.
-
-    Returns
-    -------
-    context manager
-        Ends the style where its block ends. Without `with` the style is in force until the next call.
-
-    Raises
-    ------
-    InputError
-        There is no such style, or no such width.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
-    >>> with dd.style("journal", width=88):
-    ...     ax = curve.plot(title=False)
-    ...     ax.figure.savefig("curve.pdf")
-    """
+def put_style(name: str, width: float | None, wording: Wording) -> AbstractContextManager[None]:
+    """Choose the style of figures: see `dondolo.style`."""
     one_of("style", name, _THEMES)
-    chosen = _THEMES[name]
+    chosen = replace(_THEMES[name], wording=wording)
     if width is not None:
         # Below 40 mm the text of 7 pt leaves no room for curves.
         if not 40.0 <= (wide := as_number("width", width)) <= 1000.0:

@@ -25,6 +25,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error, as_number
 from dondolo._base.files import read_text
+from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo.errors import DondoloError, DondoloWarning, InputError
@@ -240,7 +241,8 @@ def write_curves(
         commas = "," * (len(titles) - 1)
         cells = [longitude, latitude, 0.0, *-np.expm1(-frequency * time)]
         row = ",".join(repr(float(cell)) for cell in cells)
-        tables.write_lines(path, [f"#{commas}\"generated_by='dondolo', {about}\"", ",".join(titles), row])
+        head = f"#{commas}\"generated_by='dondolo {constants().version}', {about}\""
+        tables.write_lines(path, [head, ",".join(titles), row])
         written.append(str(path))
     return written
 

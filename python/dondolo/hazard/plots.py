@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import say
 from dondolo.hazard.hazard import HazardCurve
 
 if TYPE_CHECKING:

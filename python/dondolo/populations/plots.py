@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error, as_array
-from dondolo._base.wording import decimal, say
 from dondolo.curves.plots import parameters
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
+from dondolo.figures.wording import decimal, in_words_of_figures, say
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
 
@@ -56,7 +56,12 @@ def draw_curve(curve: PopulationCurve, ax: Axes | None, given: dict[str, Any]) -
         ax.plot(grid, curve.fit(grid), color=style.BLACK, label=fitted, zorder=5, **_FITTED)
     if options.points:
         _fractions(ax, curve, say("weighted fractions"))
-    return curves.finish(ax, options, curve.im, grid[-1], curve._title())
+    return curves.finish(ax, options, curve.im, grid[-1], _title(curve))
+
+
+def _title(curve: PopulationCurve) -> str:
+    with in_words_of_figures():
+        return curve._title()
 
 
 def _fractions(ax: Axes, curve: PopulationCurve, label: str) -> None:
@@ -171,7 +176,7 @@ def draw_damage_states(
         if options.points:
             ax.plot(state.levels, state.mean_fraction, **marks)
     _explain_fitted(ax, states)
-    title = typology[mechanism, group]._title()
+    title = _title(typology[mechanism, group])
     return curves.finish(ax, options, typology.im, grid[-1], title, say("probability to reach the state"))
 
 

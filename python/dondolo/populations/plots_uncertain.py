@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,7 +12,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.populations import FlatCurves, FlatPopulation
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning, NotKnownError
 from dondolo.populations.curve import Group, IntArray, flat_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.stored_curves import StoredCurves
@@ -68,11 +68,11 @@ class RowCurves:
 
         Raises
         ------
-        InputError
+        NotKnownError
             Results that do not have `ties`.
         """
         if self.ties is None:
-            raise InputError("broken_ties: these results do not know their ties")
+            raise NotKnownError("broken_ties: these results do not know their ties")
         histories = self.histories.T.astype(np.float64)
         return tuple(own.broken / runs[:, None] for own, runs in zip(self.ties, histories, strict=True))
 
@@ -101,11 +101,11 @@ class RowCurves:
 
         Raises
         ------
-        InputError
+        NotKnownError
             The results were read back from files without them.
         """
         if self.union_curves is None:
-            raise InputError(_MISSING)
+            raise NotKnownError(_MISSING)
         return self.union_curves
 
     @property
@@ -119,11 +119,11 @@ class RowCurves:
 
         Raises
         ------
-        InputError
+        NotKnownError
             The results were read back from files without them.
         """
         if self.group_union_curves is None:
-            raise InputError(_MISSING)
+            raise NotKnownError(_MISSING)
         return self.group_union_curves
 
     @property

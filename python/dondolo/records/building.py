@@ -121,7 +121,11 @@ class Building:
 
     @property
     def free_vibration(self) -> float:
-        """How long the floor is followed after a record, until 1e-4 of the amplitude is left [s]."""
+        """How long walls are followed after a record, until 1e-4 of each mode's amplitude is left [s].
+
+        A facade that stands on the ground leans on a building that vibrates. The floor alone (`Record.on_floor`) is
+        followed as long as the modes that move it; at the level 0 there are none.
+        """
         return self._understood.free_vibration
 
     @property

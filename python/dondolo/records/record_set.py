@@ -231,7 +231,7 @@ class RecordSet(Shown, Saved):
         by : str
             A column or an intensity measure.
         descending : bool
-            Whether to put the largest first.
+            Whether to put the largest first; rows without a value stay last.
 
         Returns
         -------
@@ -246,11 +246,10 @@ class RecordSet(Shown, Saved):
         True
         """
         values = column_of(self, by)
-        descending = as_flag("descending", descending)
-        if descending and values.dtype.kind == "f":
-            return self._rows(np.argsort(-values, kind="stable"))
-        order = np.argsort(values, kind="stable")
-        return self._rows(order[::-1] if descending else order)
+        missing = np.isnan(values) if values.dtype.kind == "f" else values == ""
+        # Rows of equal values keep their order.
+        rank = np.unique(values, return_inverse=True)[1]
+        return self._rows(np.lexsort((-rank if as_flag("descending", descending) else rank, missing)))
 
     def spectra(self, periods: ArrayLike, *, damping: float = 0.05) -> FloatArray:
         """Pseudo-spectral accelerations of the rows, times their factors.

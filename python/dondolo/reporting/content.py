@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from dondolo._base.wording import decimal, in_english, say
+from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit, unit_of
 from dondolo.figures.layout import lay_out
+from dondolo.figures.wording import set_decimal_marks
 from dondolo.reporting.numerals import Numeral, number
 
 # What sentences that are said elsewhere are marked by for the catalogues
@@ -140,8 +141,7 @@ def figure(draw: Callable[[], Any], alt: str) -> Figure:
     axes = draw()
     drawing = (axes if hasattr(axes, "figure") else axes[0]).figure
     try:
-        if not in_english():
-            _set_decimal_marks(drawing)
+        set_decimal_marks(drawing)
         lay_out(drawing, is_cut=True)
         shown = drawing.get_tightbbox().padded(_MARGIN)
         # The same bytes every time: no date, and names in the drawing by a fixed salt.
@@ -155,17 +155,6 @@ def figure(draw: Callable[[], Any], alt: str) -> Figure:
     finally:
         plt.close(drawing)
     return Figure(f"data:image/{kind};base64,{base64.b64encode(stream.getvalue()).decode()}", alt)
-
-
-def _set_decimal_marks(drawing: Any) -> None:
-    """Numbers of axes have the decimal mark of the language in force; names beside ticks are those of the user."""
-    from matplotlib.ticker import FixedLocator
-
-    for ax in (one for main in drawing.axes for one in (main, *main.child_axes)):
-        for axis in (ax.xaxis, ax.yaxis):
-            if not isinstance(axis.get_major_locator(), FixedLocator):
-                ticks = axis.get_major_formatter()
-                ticks.format_ticks = lambda values, plain=ticks.format_ticks: [decimal(one) for one in plain(values)]
 
 
 def pieces(sentence: str, **values: Any) -> tuple[Any, ...]:

@@ -29,10 +29,12 @@ class Language:
     ----------
     code : {'en', 'it'}, optional
         That of the environment variable ``DONDOLO_LANG`` if left out, or English.
+    name : str
+        Name of the argument, for messages.
     """
 
-    def __init__(self, code: str | None = None) -> None:
-        given, name = (os.environ.get("DONDOLO_LANG", "en"), "DONDOLO_LANG") if code is None else (code, "lang")
+    def __init__(self, code: str | None = None, name: str = "lang") -> None:
+        given, name = (os.environ.get("DONDOLO_LANG", "en"), "DONDOLO_LANG") if code is None else (code, name)
         given = given.lower() if isinstance(given, str) else given
         one_of(name, given, LANGUAGES)
         self.code = given
@@ -45,9 +47,14 @@ class Language:
             except OSError as error:
                 raise DondoloError(f"lang = {self.code!r}: its catalogue cannot be read: {error.strerror}") from None
 
+    @property
+    def wording(self) -> Wording:
+        """Its sentences and its decimal mark."""
+        return ENGLISH if self.code == "en" else Wording(self._said, self.decimal("."))
+
     def in_force(self) -> AbstractContextManager[None]:
         """Say the sentences of all rooms in this language until the end of a block."""
-        return in_words_of(ENGLISH if self.code == "en" else Wording(self._said, self.decimal(".")))
+        return in_words_of(self.wording)
 
     def _said(self, sentence: str) -> str:
         """A sentence, a note by its code or a property of a wall, in Italian."""

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import decimal, say
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import decimal, say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

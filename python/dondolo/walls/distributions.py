@@ -8,6 +8,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number
 from dondolo._fortran.library import constants
@@ -24,18 +25,18 @@ def __dir__() -> list[str]:
 class Distribution(Protocol):
     """Anything with quantiles: the distributions of dondolo, frozen distributions of SciPy, objects of one's own."""
 
-    def ppf(self, q: FloatArray, /) -> FloatArray:
+    def ppf(self, q: ArrayLike, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q.
 
         Parameters
         ----------
-        q : ndarray
+        q : array_like
             Probabilities, between 0 and 1.
 
         Returns
         -------
-        ndarray, shape of q
-            In the unit of the parameters.
+        float or ndarray, shape of q
+            In the unit of the parameters; NaN for what is no probability.
         """
         ...
 
@@ -57,7 +58,7 @@ class Uniform:
     Examples
     --------
     >>> import dondolo as dd
-    >>> dd.distributions.Uniform(2.4, 3.6).ppf(0.5)
+    >>> float(dd.distributions.Uniform(2.4, 3.6).ppf(0.5))
     3.0
     """
 
@@ -68,9 +69,12 @@ class Uniform:
         _check_numbers(self)
         _check_ends(self.low, self.high)
 
-    def ppf(self, q: FloatArray, /) -> FloatArray:
+    def ppf(self, q: ArrayLike, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
-        return self.low + (self.high - self.low) * q
+        from scipy import stats
+
+        quantiles: FloatArray = stats.uniform(self.low, self.high - self.low).ppf(q)
+        return quantiles
 
 
 @dataclass(frozen=True)
@@ -106,7 +110,7 @@ class Triangular:
                 "out_of_range", "mode", f" = {self.mode:g}: must lie between {self.low:g} and {self.high:g}"
             )
 
-    def ppf(self, q: FloatArray, /) -> FloatArray:
+    def ppf(self, q: ArrayLike, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
         from scipy import stats
 
@@ -168,7 +172,7 @@ class Normal(_CutOff):
         low = -math.inf if self.low is None else (self.low - self.mean) / self.sd
         return low, math.inf if self.high is None else (self.high - self.mean) / self.sd
 
-    def ppf(self, q: FloatArray, /) -> FloatArray:
+    def ppf(self, q: ArrayLike, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
         return self.mean + self.sd * _cut_normal(q, *self._ends())
 
@@ -219,7 +223,7 @@ class Lognormal(_CutOff):
         low = -math.inf if self.low is None else math.log(self.low / self.theta) / self.beta
         return low, math.inf if self.high is None else math.log(self.high / self.theta) / self.beta
 
-    def ppf(self, q: FloatArray, /) -> FloatArray:
+    def ppf(self, q: ArrayLike, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
         return self.theta * np.exp(self.beta * _cut_normal(q, *self._ends()))
 
@@ -266,13 +270,15 @@ class Choice:
         object.__setattr__(self, "values", tuple(values.tolist()))
         object.__setattr__(self, "probabilities", tuple(shares.tolist()))
 
-    def ppf(self, q: FloatArray, /) -> FloatArray:
+    def ppf(self, q: ArrayLike, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
+        chance = np.asarray(q, dtype=np.float64)
         ends = np.cumsum(self.probabilities)[:-1]
-        return np.asarray(self.values)[np.searchsorted(ends, q)]
+        found = np.asarray(self.values)[np.searchsorted(ends, chance)]
+        return np.where((chance >= 0.0) & (chance <= 1.0), found, np.nan)[()]
 
 
-def _cut_normal(q: FloatArray, low: float, high: float) -> FloatArray:
+def _cut_normal(q: ArrayLike, low: float, high: float) -> FloatArray:
     """Quantiles of the standard normal distribution between two ends."""
     from scipy import stats
 

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import say
 from dondolo.walls.chains import Chain
 from dondolo.walls.drawing_chain import draw_chain
 from dondolo.walls.drawing_loads import caption, draw_loads

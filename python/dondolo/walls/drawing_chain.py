@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import say
 from dondolo.walls.chains import Chain
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import decimal, in_english, say
 from dondolo.figures import style
 from dondolo.figures.themes import theme
+from dondolo.figures.wording import decimal, in_english, say
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys

@@ -62,6 +62,8 @@ module dondolo_building
       procedure :: parts
       !> How long it vibrates after a record
       procedure :: free_vibration
+      !> The same for walls that may feel any of its modes
+      procedure :: longest_vibration
       !> Is another building the same?
       procedure :: equals
       !> Does another building swing alike?
@@ -130,6 +132,14 @@ contains
       time = maxval([0.0_wp, pack(lasting(self%period, self%damping), moves(self))])
       if (self%has_diaphragm()) time = in_series*max(time, lasting(self%diaphragm%period, self%diaphragm%damping))
    end function free_vibration
+
+   !> How long it vibrates after a record for walls that may lean on it at any level and feel all of its modes [s]
+   pure real(wp) function longest_vibration(self) result(time)
+      class(building_type), intent(in) :: self
+
+      time = maxval(lasting(self%period, self%damping))
+      if (self%diaphragm%period > 0.0_wp) time = in_series*max(time, lasting(self%diaphragm%period, self%diaphragm%damping))
+   end function longest_vibration
 
    !> How long a mode vibrates freely, until little is left of its amplitude [s]
    elemental real(wp) function lasting(period, damping)

@@ -9,8 +9,8 @@
 !> 2 t (t + D) (docs/ties.md). The tie holds with the least of the four; the anchor, with the least of the last three, gives way at
 !> once.
 !>
-!> Near the top of the wall the upper face is missing, and what the side faces would have above it. Where frusta of neighbouring
-!> plates meet, they come out together: the band between two horizontal faces, 2 t s.
+!> Near the top of the wall the upper face is missing, and what the side faces would have above it. Neighbouring plates may also
+!> come out together, at any spacing: the band between two horizontal faces, 2 t s.
 module dondolo_wall_anchor
    use dondolo_base_kinds, only : wp
    implicit none

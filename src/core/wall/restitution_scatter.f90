@@ -7,7 +7,7 @@ module dondolo_wall_restitution_scatter
    use dondolo_base_fingerprint, only : fingerprint_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief, to_text
-   use dondolo_record_random, only : new_random, random_type
+   use dondolo_record_random, only : new_hashed_random, random_type
    implicit none
    private
 
@@ -86,7 +86,7 @@ contains
       if (.not. self%exists()) return
       call fingerprint%add_text(record)
       call fingerprint%add_integer(merge(1, 0, is_reversed))
-      self%random = new_random(self%seed, int(fingerprint%value(1)))
+      self%random = new_hashed_random(self%seed, int(fingerprint%value(1)))
    end subroutine begin
 
    !> Ratio of the next impact

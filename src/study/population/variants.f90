@@ -9,7 +9,7 @@ module dondolo_population_variants
    use dondolo_base_property, only : is_list, name_length
    use dondolo_base_text, only : to_text
    use dondolo_population_distribution, only : distribution_type
-   use dondolo_record_random, only : new_random, random_type
+   use dondolo_record_random, only : new_hashed_random, random_type
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -66,7 +66,7 @@ contains
       allocate (wall%values(size(sources), samples + 2 + 2*size(sources)))
       do k = 1, size(sources)
          ! A stream for each, so that a further source leaves the others as they are
-         random = new_random(seed, k - 1)
+         random = new_hashed_random(seed, k - 1)
          parts = [(i, i=1, samples)]
          do i = samples, 2, -1
             other = 1 + int(random%next()*real(i, wp))

@@ -164,7 +164,8 @@ contains
 
       integer :: first(most_cells), last(most_cells), i, k, rows, found
       integer, allocatable :: from(:), to(:)
-      character(len=:), allocatable :: problem
+      character(len=:), allocatable :: problem, note
+      real(wp) :: known
 
       k = roles%time
       associate (title => top%titles(k)%text, times => table%values(k::table%cells))
@@ -191,7 +192,11 @@ contains
             from(i) = first(k)
             to(i) = last(k)
          end do
-         call check_equal_steps(text, table%begin, times, from, to, roles%dt, roles%doubt, error)
+         known = top%statements%dt
+         if (allocated(given%dt)) known = given%dt
+         call check_equal_steps(text, table%begin, times, from, to, roles%dt, roles%doubt, error, known, note)
+         if (len(roles%note) > 0 .and. len(note) > 0) roles%note = roles%note//'; '
+         roles%note = roles%note//note
          if (roles%is_told) then
             if (.not. allocated(error) .and. roles%dt >= longest_titled_step) call raise_at(error, text, table%begin, 'column '// &
                & to_text(k)//' increases by '//brief(roles%dt)//': must be times in s')

@@ -6,6 +6,10 @@
 !>
 !> The time step is the shortest decimal that all times allow: 0.02 of 0.019999999552965164, 0.03999999910593033 ..., which a
 !> program had in single precision before it printed them.
+!>
+!> Where the print does not resolve a step, as two decimals do not at 200 Hz, a step that is known is taken if it fits all times:
+!> some first instant puts every sample within half a unit of the last decimal of its printed time. Then samples that are missing
+!> or doubled are found once they make up more than that unit.
 module dondolo_records_equal_steps
    use, intrinsic :: iso_fortran_env, only : real32
    use dondolo_base_error, only : error_type
@@ -24,6 +28,9 @@ module dondolo_records_equal_steps
    !> Part of a step that the print must resolve
    real(wp), parameter :: resolved = 0.25_wp
 
+   !> Most steps in a unit of the last decimal where the step is known
+   real(wp), parameter :: coarsest = 10.0_wp
+
    !> Most significant digits of a step
    integer, parameter :: most_digits = 15
 
@@ -34,7 +41,7 @@ module dondolo_records_equal_steps
 contains
 
    !> Check the times of a file and find the time step
-   subroutine check_equal_steps(text, begin, time, first, last, dt, doubt, error)
+   subroutine check_equal_steps(text, begin, time, first, last, dt, doubt, error, known, note)
       type(text_file_type), intent(in) :: text
       !> Line of the first time; the others stand in the lines after it
       integer, intent(in) :: begin
@@ -50,10 +57,16 @@ contains
       real(wp), intent(out) :: doubt
       !> Times decrease or are not equally spaced
       type(error_type), allocatable, intent(out) :: error
+      !> Time step that is given, or stated elsewhere in the file; not positive: none [s]
+      real(wp), intent(in), optional :: known
+      !> That times are coarser than the known step, which was taken; empty otherwise
+      character(len=:), allocatable, intent(out), optional :: note
 
+      character(len=:), allocatable :: hint
       integer :: i, n, odd, decimals, digits
       real(wp) :: rounding, rounding_of_last, allowed
 
+      if (present(note)) note = ''
       dt = 0.0_wp
       doubt = 0.0_wp
       n = size(time)
@@ -82,14 +95,48 @@ contains
          rounding = rounding_of(time(i), dt, decimals, digits)
          if (abs(time(i) - time(i - 1) - dt) <= rounding + slack*dt .and. &
             & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= max(rounding, rounding_of_last) + slack*dt) cycle
+         if (present(known)) then
+            if (fits(time, 10.0_wp**(-decimals), known)) then
+               dt = known
+               if (present(note)) note = 'times are printed to '//brief(10.0_wp**(-decimals))//' s, coarser than the step of '// &
+                  & brief(dt)//' s, which fits all of them'
+               return
+            end if
+         end if
          ! The step that differs most is where a sample is missing or doubled
          odd = maxloc(abs(time(2:) - time(:n - 1) - dt), dim=1) + 1
+         hint = ''
+         if (10.0_wp**(-decimals) > resolved*dt) hint = '; times with so few decimals are read with a dt_s, or dt, that fits them'
          call raise_at(error, text, begin + odd - 1, 'time '//to_text(time(odd))//' after '//to_text(time(odd - 1))// &
-            & ': times must be equally spaced, the mean step is '//brief(dt))
+            & ': times must be equally spaced, the mean step is '//brief(dt)//hint)
          return
       end do
       call find_step(time, decimals, digits, dt, doubt)
    end subroutine check_equal_steps
+
+   !> Does a step fit all times, which are rounded to a unit?
+   pure logical function fits(time, unit, step)
+      !> Times [s]
+      real(wp), intent(in) :: time(:)
+      !> Unit of their last decimal, and step [s]
+      real(wp), intent(in) :: unit, step
+
+      ! Of what decimals lose in double precision
+      real(wp), parameter :: rounding = 1.0e-6_wp
+      real(wp) :: off, low, high
+      integer :: i
+
+      fits = step > 0.0_wp .and. unit <= coarsest*step
+      if (.not. fits) return
+      low = 0.0_wp
+      high = 0.0_wp
+      do i = 2, size(time)
+         off = time(i) - time(1) - real(i - 1, wp)*step
+         low = min(low, off)
+         high = max(high, off)
+      end do
+      fits = high - low <= unit*(1.0_wp + rounding)
+   end function fits
 
    !> Find the shortest decimal among the steps that the print of the times allows
    pure subroutine find_step(time, decimals, digits, dt, doubt)

@@ -54,7 +54,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(header_type) :: header
-      character(len=:), allocatable :: units
+      character(len=:), allocatable :: units, note
       real(wp), allocatable :: values(:)
       real(wp) :: rate, dt, doubt
       integer :: begin, rows, columns, i
@@ -76,8 +76,9 @@ contains
       if (allocated(error)) return
       call check_equal_steps(text, begin, values(1:columns*rows:columns), &
          & text%first(begin:begin + rows - 1), text%first(begin:begin + rows - 1) + width - 1, dt, &
-         & doubt, error)
+         & doubt, error, 1.0_wp/rate, note)
       if (allocated(error)) return
+      call samples%metadata%append('reading', note)
       if (abs(dt*rate - 1.0_wp) > step_tolerance) then
          call raise_at(error, text, header%labels%line_of('#SampleRate(Hz)'), 'SampleRate(Hz) = '//to_text(rate)// &
             & ': the step of the times is '//to_text(dt))

@@ -68,7 +68,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(header_type) :: header
-      character(len=:), allocatable :: title, units
+      character(len=:), allocatable :: title, units, note
       real(wp), allocatable :: time(:)
       real(wp) :: rate
       integer :: titles, columns, rows, i, k, cells, begin, first(most_cells), last(most_cells)
@@ -123,8 +123,9 @@ contains
          from(i) = first(1)
          to(i) = last(1)
       end do
-      call check_times(text, begin, time, from, to, rate, error)
+      call check_times(text, begin, time, from, to, rate, note, error)
       if (allocated(error)) return
+      call samples%metadata%append('reading', note)
       samples%channels%dt = 1.0_wp/rate
       call find_cut(text, begin, text%lines(), is_cut, i, 0, .false.)
       if (is_cut) then
@@ -137,7 +138,7 @@ contains
    end subroutine read_nied
 
    !> The times must be as far apart as the sampling frequency makes them
-   subroutine check_times(text, begin, time, from, to, rate, error)
+   subroutine check_times(text, begin, time, from, to, rate, note, error)
       type(text_file_type), intent(in) :: text
       !> Line of the first time
       integer, intent(in) :: begin
@@ -147,11 +148,13 @@ contains
       integer, intent(in) :: from(:), to(:)
       !> Sampling frequency [1/s]
       real(wp), intent(in) :: rate
+      !> What to report of times that are coarser than that, empty if there is nothing
+      character(len=:), allocatable, intent(out) :: note
       type(error_type), allocatable, intent(out) :: error
 
       real(wp) :: dt, doubt
 
-      call check_equal_steps(text, begin, time - time(1), from, to, dt, doubt, error)
+      call check_equal_steps(text, begin, time - time(1), from, to, dt, doubt, error, 1.0_wp/rate, note)
       if (allocated(error)) return
       if (abs(dt*rate - 1.0_wp) > step_tolerance) call raise_at(error, text, begin, 'the step of the times is '// &
          & to_text(dt)//' s: Sampling Freq(Hz) = '//to_text(rate))
