@@ -22,6 +22,7 @@ UNITS = {
     "m": Unit("m"),
     "m/s2": Unit("m/s²"),
     "kg/m": Unit("kg/m"),
+    "kg": Unit("kg"),
     "kg/m3": Unit("kg/m³"),
     "m2/m": Unit("cm²/m", 1e4),
     "N/m": Unit("kN/m", 1e-3),
@@ -29,6 +30,8 @@ UNITS = {
     "year": Unit("years"),
     "N m/m": Unit("kNm/m", 1e-3),
     "N m2/m": Unit("kNm²/m", 1e-3),
+    "N m": Unit("kNm", 1e-3),
+    "N m2": Unit("kNm²", 1e-3),
     "Pa": Unit("MPa", 1e-6),
 }
 # Small lengths: displacements, and sizes of sections

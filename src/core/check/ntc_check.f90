@@ -53,6 +53,7 @@ contains
 
       allocate (others(0))
       if (present(curves)) others = curves
+      sheet%is_whole = kinematic%is_whole
       if (allocated(input%place)) call put_place(sheet, input%place)
       do i = 1, merge(3, 1, input%has_states())
          call put_site(sheet, kinematic, input, i)
@@ -177,7 +178,8 @@ contains
          & 'C8.7.1.4')
    end subroutine put_mechanism
 
-   !> Put the multiplier of a facade without its wedges of transverse walls, its hinge and its loads where they are
+   !> Put the multiplier of a facade without its wedges of transverse walls, or of a corner without its wings, its hinge and its
+   !> loads where they are
    pure subroutine put_bare_facade(sheet, kinematic)
       type(sheet_type), intent(inout) :: sheet
       type(kinematic_type), intent(in) :: kinematic

@@ -94,22 +94,28 @@ def _reactions(document: Document) -> list[Block]:
     several = [(name, one) for name, one in document.each() if one.is_turning]
     if not several:
         return []
-    unit = UNITS["N/m"]
+    # Beside those of a whole body each number has its unit
+    is_mixed = any(one.is_whole for _name, one in several)
+    head = _("force on the base") if is_mixed else _("force on the base [kN/m]")
     columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("force on the base [kN/m]")): [
+        document.text(head): [
             document.text(_("vertical, downwards, ΣP")),
             document.text(_("horizontal without earthquake, outwards, ΣH - Σ σ₀ A")),
             document.text(_("horizontal at activation, outwards, ΣH + α₀ Σ(P + Q) - ΣT")),
         ]
     }
     for name, one in several:
-        columns[name] = [cell(value, unit, 5) for value in reactions_of(one)]
+        shown_as = quantity if is_mixed else cell
+        columns[name] = [shown_as(value, one.unit("N/m"), 5) for value in reactions_of(one)]
+    caption = _("Forces that the wall transmits to its base, per metre.")
+    if is_mixed:
+        caption = _("Forces that the wall transmits to its base.")
     words = _(
         "The reactions V and H of the base on the wall, drawn at activation, are equal and opposite to these forces."
         " Without earthquake a tie has its preload {preload} alone."
     )
     return [
-        CaptionedTable(Table.of(columns), document.text(_("Forces that the wall transmits to its base, per metre."))),
+        CaptionedTable(Table.of(columns), document.text(caption)),
         document.say(words, preload=symbol_of("sigma_0")),
     ]
 
@@ -219,7 +225,7 @@ def _chance(found: Chance | None) -> Piece:
 def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     """The items with their sums, so that the multiplier can be made again by hand."""
     items, turns = one.check.items, one.is_turning
-    force, moment, second = UNITS["N/m"], UNITS["N m/m"], UNITS["N m2/m"]
+    force, moment, second = one.unit("N/m"), one.unit("N m/m"), one.unit("N m2/m")
 
     def column(field: str, unit: Unit, figures: int = FIGURES) -> list[Piece]:
         values = [getattr(item, field) for item in items]
@@ -231,7 +237,7 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     counted = f" ({document.text(_('counted above'))})"
     names = [document.item(item.item) + (counted if item.item == "masonry" else "") for item in items]
     columns: dict[Piece, list[Piece]] = {document.text(_("item")): names}  # type: ignore[dict-item]
-    forces = (symbol_of("P"), ", ", symbol_of("H"), ", ", symbol_of("T"), " [kN/m]")
+    forces = (symbol_of("P"), ", ", symbol_of("H"), ", ", symbol_of("T"), f" [{force.name}]")
     columns[forces] = [
         ("(", value, ")") if item.item == "masonry" else value
         for item, value in zip(items, column("force", force), strict=True)
@@ -247,12 +253,13 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
             "" if math.isnan(item.depth) else shown(item.depth - hinge, UNITS["m"]) for item in items
         ]
     columns[(symbol_of(lever), " [m]")] = column("lever", UNITS["m"])
-    stab, over = document.text(_("stabilising [kNm/m]")), document.text(_("overturning [kNm/m]"))
+    stab = document.text(_("stabilising [{unit}]"), unit=moment.name)
+    over = document.text(_("overturning [{unit}]"), unit=moment.name)
     columns[stab] = column("stabilising", moment)
     if turns or sums["thrust"]:
         columns[over] = column("overturning", moment)
-    product = (symbol_of("P"), " ", symbol_of(lever), " [kNm/m]")
-    square = (symbol_of("P"), " ", symbol_of(lever), "² [kNm²/m]")
+    product = (symbol_of("P"), " ", symbol_of(lever), f" [{moment.name}]")
+    square = (symbol_of("P"), " ", symbol_of(lever), f"² [{second.name}]")
     columns[product] = column("force_lever", moment)
     columns[square] = column("force_lever2", second)
     pushes = sums["weight"] > sums["carried"] and turns
@@ -266,7 +273,10 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     }
     for place, (head, cells) in enumerate(columns.items()):
         cells.append(document.text(_("sum")) if not place else ends.get(head, ""))
-    caption = document.titled(document.text(_("Calculation of the multiplier, item by item, per metre of wall")), name)
+    words = _("Calculation of the multiplier, item by item, per metre of wall")
+    if one.is_whole:
+        words = _("Calculation of the multiplier, item by item, of the whole corner")
+    caption = document.titled(document.text(words), name)
     return CaptionedTable(Table.of(columns), caption, strong=1)  # type: ignore[arg-type]
 
 

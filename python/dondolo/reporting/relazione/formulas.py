@@ -19,14 +19,14 @@ from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.sums import sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell
-from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 
 # Figures of what is to be calculated again by hand
 FIGURES = 6
 # Units in which formulas hold as they do in those of the SI: forces in kN, masses in t
-COHERENT = {"kg/m": Unit("t/m", 1e-3)}
+COHERENT = {"kg/m": Unit("t/m", 1e-3), "kg": Unit("t", 1e-3)}
 _COHERENT = COHERENT | {"Pa": Unit("kN/m²", 1e-3), "N/m3": Unit("kN/m³", 1e-3)}
-_COHERENT |= {name: UNITS[name] for name in ("N", "N/m", "N m/m", "N m2/m")}
+_COHERENT |= {name: UNITS[name] for name in ("N", "N/m", "N m/m", "N m2/m", "N m", "N m2")}
 # Units of symbols that are no rows of a sheet: sums over the items, gravity, and a multiplier
 _GIVEN = {
     "g": "m/s2", "sum stabilising": "N m/m", "sum overturning": "N m/m", "sum P": "N/m", "sum P z": "N m/m",
@@ -68,6 +68,8 @@ def formulas_of(document: Document, row: SheetRow, check: CodeCheck, symbol: str
         Of the quantity; '' for that of the row.
     """
     units = {one.symbol: one.unit for one in check.rows} | _GIVEN
+    if isinstance(check.wall, Corner):
+        units = {name: unit.removesuffix("/m") for name, unit in units.items()}
     # Numbers in formulas have eight figures, of which six would be rounded twice.
     exact = {f"{value:.8g}": value for value in (*(one.value for one in check.rows), *sums_of(check.items).values())}
     leaves, values = _leaves(row.expression), _leaves(row.numbers)

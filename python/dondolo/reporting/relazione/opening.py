@@ -25,7 +25,7 @@ from dondolo.reporting.relazione.terms import MECHANISMS
 from dondolo.reporting.relazione.ties import open_ties_of
 from dondolo.reporting.tested import sentences
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
-from dondolo.walls.mechanisms import OneSidedWall, TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, OneSidedWall, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
 _STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
@@ -336,7 +336,7 @@ def modelling(document: Document) -> list[Block]:
             " and displacements, and the displacement of the equivalent oscillator with C8.7.1.4."
         )
         blocks.append(document.say(words))
-    if any(isinstance(wall, OneSidedWall) for wall in walls):
+    if any(isinstance(wall, (Corner, OneSidedWall)) for wall in walls):
         blocks.append(document.say(_("The calculation assumes that the wall does not turn inwards.")))
         blocks += document.written("inward_rotation", _("why the wall does not turn inwards"))
     if any(parts_of(wall, "ties") for wall in walls):
@@ -356,6 +356,15 @@ def modelling(document: Document) -> list[Block]:
         words = _(
             "Wedges of the transverse walls turn with the wall: their angles and lengths are a judgement on the bond of"
             " the masonry. They act by their weight and their mass alone, without friction on the cracks."
+        )
+        blocks.append(document.say(words))
+    if any(one.is_whole for one in document.subjects.several):
+        words = _(
+            "A corner overturns along the bisector of its two walls: its square base carries a wing of each wall, above"
+            " a crack whose angle is a judgement on the bond of the masonry. Depths are measured on the bisector, from"
+            " the outer edge; the hinge is behind this edge. Masses and forces of a corner are those of the whole. The"
+            " demand is the spectrum of one component of the motion, along the bisector, of which the Circolare says"
+            " nothing."
         )
         blocks.append(document.say(words))
     if any(one.is_on_floor for one in document.subjects.several):
@@ -399,6 +408,7 @@ def _travels(document: Document) -> tuple[Any, ...]:
 
 def actions(document: Document) -> list[Block]:
     """Chapter 6."""
+    is_whole = any(one.is_whole for one in document.subjects.several)
     return [
         Heading(document.text(_("Actions and seismic combination"))),
         document.say(
@@ -412,6 +422,7 @@ def actions(document: Document) -> list[Block]:
             ),
             psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")),
         ),
+        *([document.say(_("Forces of a corner are in all, not per metre."))] if is_whole else []),
         document.say(
             _(
                 "{p} are the weights that a wall carries, its own among them, {q} those of masses that it pushes"

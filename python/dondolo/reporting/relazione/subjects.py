@@ -13,7 +13,8 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError, Problem
 from dondolo.exchange.results import Results
 from dondolo.reporting.relazione.terms import BENDING
-from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.reporting.units import UNITS, Unit
+from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.wall import MasonryWall, Wall
 
 # States that stand beside each other in a table
@@ -50,6 +51,15 @@ class Subject:
     def is_turning(self) -> bool:
         """Whether it is a wall of masonry that turns about its base, neither a strip nor a table."""
         return not isinstance(self.wall, (TwoBlockWall, TabulatedWall))
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether masses and forces are those of a whole body, and not per metre of wall."""
+        return isinstance(self.wall, Corner)
+
+    def unit(self, name: str) -> Unit:
+        """The unit in which a document has what is per metre of wall, or in all."""
+        return UNITS[name.removesuffix("/m") if self.is_whole else name]
 
     @property
     def has_ratios(self) -> bool:
