@@ -63,6 +63,8 @@ contains
 
       text = ''
       associate (input => wall%input)
+         if (size(input%list('load_total')) > 0) text = '  loads '//rounded(sum(input%list('load_total')))//' N'
+         if (size(input%list('thrust_total')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust_total')))//' N'
          if (size(input%list('load')) > 0) text = '  loads '//rounded(sum(input%list('load')))//' N/m'
          if (size(input%list('thrust')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust')))//' N/m'
          if (size(input%list('tie_height')) > 0) text = trim(text)//'  ties '//rounded(sum( &
@@ -93,6 +95,7 @@ contains
       type(wall_type), intent(in) :: wall
 
       type(lines_type) :: lines
+      character(len=:), allocatable :: per
       real(wp) :: j, c, g, l, load
       integer :: i, colon
 
@@ -107,8 +110,9 @@ contains
       if (allocated(wall%mechanism%restraints)) call print_ties(wall)
       if (wall%mechanism%joint%exists) call print_joint(wall)
       call wall%mechanism%terms(0.0_wp, j, c, g, l, load)
+      per = trim(merge('  ', '/m', wall%model%is_whole))
       call print_line('trigger', rounded(wall%mechanism%trigger_acceleration()/wall%gravity)//' g: restoring moment '// &
-         & rounded(g - load)//' N m/m over excitation lever '//rounded(l)//' kg m/m')
+         & rounded(g - load)//' N m'//per//' over excitation lever '//rounded(l)//' kg m'//per)
       associate (q => wall%mechanism%capacity)
          if (wall%mechanism%unseating < q) then
             call print_line('collapse', 'unseating governs: a load loses its seat at '//rounded(wall%mechanism%unseating)// &
@@ -179,7 +183,11 @@ contains
       type(wall_input_type) :: input
       type(error_type), allocatable :: error
 
-      if (.not. wall%model%hinge_depth > 0.0_wp) then
+      if (wall%model%is_whole) then
+         ! A corner has no hinge at its edge to compare with
+         call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the edge, '//trim(merge('of crushed masonry', &
+            & 'given             ', wall%input%has('compressive_strength'))))
+      else if (.not. wall%model%hinge_depth > 0.0_wp) then
          call print_line('hinge', 'at the face: geometry governs, no crushing')
       else if (.not. wall%input%has('compressive_strength')) then
          call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the face, given')

@@ -51,6 +51,7 @@ def main() -> None:
     anchor()
     interlocking()
     compound()
+    corner()
     processing()
     pulses()
     overturning()
@@ -438,6 +439,27 @@ def compound():
     axes[1].plot(angles, [facade(a).trigger_acceleration / 9.81 for a in angles], color=style.BLUE, linewidth=1.8)
     axes[1].set(xlabel="angle of the crack [degrees]", ylabel="multiplier", xlim=(0.0, 35.0), ylim=(0.0, None))
     figure.savefig(figures / "compound.png", dpi=100)
+
+
+def corner():
+    """Draw a corner on its bisector, and its multiplier over the angle of the cracks."""
+    load = dd.Load(total=6e3, depth=0.45, height=3.2, inertia="both")
+    thrust = dd.Thrust(total=1e3, depth=0.45, height=3.2)
+
+    def cracked(angle):
+        return dd.Corner(
+            *(3.2, 0.5), density=1900.0, hinge_depth=0.03, wing_angle=angle, wing_length=1.0, loads=[load],
+            thrusts=[thrust], name="corner",
+        )  # fmt: skip
+
+    figure, axes = new_axes(1, 2, (9.0, 4.6), width_ratios=(1.0, 1.4))
+    cracked(20.0).plot(axes[0], rotation=0.1)
+    axes[0].set_title("rotated by 0.1 rad", loc="left")
+    angles = np.linspace(0.0, 35.0, 71)
+    # Loads go with the corner, so that alpha_0 is its trigger acceleration in g
+    axes[1].plot(angles, [cracked(a).trigger_acceleration / 9.81 for a in angles], color=style.BLUE, linewidth=1.8)
+    axes[1].set(xlabel="angle of the cracks [degrees]", ylabel="multiplier", xlim=(0.0, 35.0), ylim=(0.0, None))
+    figure.savefig(figures / "corner.png", dpi=100)
 
 
 def processing():

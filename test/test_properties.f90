@@ -458,6 +458,7 @@ contains
                if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
                   & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
             end do
+            if (mechanism_names(m) == 'corner') call complete_corner(input, what)
             if (mechanism_names(m) == 'tabulated') call complete_table(input)
             if (mechanism_names(m) == 'chain') call complete_chain(input)
             ! Less than walls of each mechanism allow, and what its seed is for
@@ -479,6 +480,38 @@ contains
          end do
       end do
    end subroutine test_walls
+
+   !> Give the wings of a corner and its hinge, and what goes with a property of its loads and thrusts
+   subroutine complete_corner(input, what)
+      type(wall_input_type), intent(inout) :: input
+      character(len=*), intent(in) :: what
+
+      if (.not. input%has('wing_angle')) call input%set('wing_angle', 20.0_wp)
+      if (.not. any(what == [character(len=20) :: 'hinge_depth', 'compressive_strength'])) call input%set('hinge_depth', 0.02_wp)
+      if (what == 'stress_block') call input%clear('hinge_depth')
+      if (what == 'hinge_level') call input%set('hinge_level', [0.4_wp])
+      if (index(what, 'load_') == 1) then
+         call give('load_total')
+         call give('load_depth')
+         call give('load_height')
+         if (what == 'load_lifted') call give('load_pushed')
+         if (what == 'load_pushed') call give('load_lifted')
+         if (.not. (input%has('load_lifted') .or. input%has('load_inertia'))) call input%set('load_inertia', 'both')
+      else if (index(what, 'thrust_') == 1) then
+         call give('thrust_total')
+         call give('thrust_height')
+      end if
+
+   contains
+
+      !> Give a list that is not given
+      subroutine give(name)
+         character(len=*), intent(in) :: name
+
+         if (.not. input%has(name)) call input%set(name, [0.4_wp, 0.4_wp])
+      end subroutine give
+
+   end subroutine complete_corner
 
    !> Give the terms of a tabulated wall, and what belongs to them
    subroutine complete_table(input)

@@ -302,12 +302,12 @@ contains
       type(wall_input_type) :: input
 
       call suite('wrong input')
-      call refuse(input, 'mechanism: must be given, one of ''one_sided'', ''free_standing'', ''two_block'', ''tabulated'', &
-         &''chain''')
+      call refuse(input, 'mechanism: must be given, one of ''one_sided'', ''free_standing'', ''two_block'', ''corner'', &
+         &''tabulated'', ''chain''')
       input = parapet()
       call input%set('mechanism', 'three_block')
       call refuse(input, 'mechanism = ''three_block'': must be one of ''one_sided'', ''free_standing'', ''two_block'', &
-         &''tabulated'', ''chain''')
+         &''corner'', ''tabulated'', ''chain''')
       input = parapet()
       call input%clear('height')
       call refuse(input, 'height: must be given')

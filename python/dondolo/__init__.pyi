@@ -60,6 +60,7 @@ from dondolo.walls.chains import PointMass as PointMass
 from dondolo.walls.chains import PointThrust as PointThrust
 from dondolo.walls.chains import Sector as Sector
 from dondolo.walls.mechanisms import Chain as Chain
+from dondolo.walls.mechanisms import Corner as Corner
 from dondolo.walls.mechanisms import FreeStandingWall as FreeStandingWall
 from dondolo.walls.mechanisms import OneSidedWall as OneSidedWall
 from dondolo.walls.mechanisms import TabulatedWall as TabulatedWall

@@ -21,6 +21,7 @@ CASES = {
     "facade_strip": ["walls", "histories", "stripes", "fragility"],
     "pinnacle": ["walls", "histories", "stripes", "fragility"],
     "compound": ["walls", "histories", "stripes", "fragility"],
+    "corner": ["walls", "histories", "stripes", "fragility"],
     "facade": ["walls", "histories", "stripes", "fragility"],
     "parapet_on_building": ["walls", "histories", "stripes", "fragility"],
     "portal": ["walls", "histories", "stripes", "fragility"],

@@ -585,7 +585,7 @@ def test_what_may_be_left_out_goes_by_name():
 def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
-        "Body", "Building", "Chain", "Choice", "DiscreteFragility", "DistributedSpring", "FreeStandingWall",
+        "Body", "Building", "Chain", "Choice", "Corner", "DiscreteFragility", "DistributedSpring", "FreeStandingWall",
         "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "InertialMass", "Load", "Lognormal",
         "Normal", "OneSidedWall", "Part", "Pin", "PointLoad", "PointMass", "PointThrust", "Population",
         "Record", "RecordSet", "Section", "Sector", "Site", "Spring", "TabulatedWall", "TargetSpectrum",

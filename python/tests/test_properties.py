@@ -88,8 +88,10 @@ def test_walls(kind):
             assert what.startswith("{" + ", ".join(map(repr, row.choices)) + "}")
 
 
-# A tabulated wall and a chain have no defaults of their own
-@pytest.mark.parametrize("kind", [kind for kind in MECHANISMS.values() if kind not in (dd.TabulatedWall, dd.Chain)])
+# Tabulated walls and chains have no defaults of their own, corners have wings that must be given
+@pytest.mark.parametrize(
+    "kind", [kind for kind in MECHANISMS.values() if kind not in (dd.Corner, dd.TabulatedWall, dd.Chain)]
+)
 def test_defaults_of_walls(kind):
     wall = kind(3.0, 0.25)
     assert wall.building is None

@@ -45,6 +45,7 @@ MEANINGS = {
     " load_inertia",
     "load_pushed": "frazione di ogni carico la cui massa è spinta dalla parete",
     "load_seat": "spostamento orizzontale per cui ogni carico perde l'appoggio",
+    "load_total": "carichi verticali che accompagnano un cantonale, ciascuno intero e non al metro",
     "inertia_mass": "masse che la parete spinge ma non porta, al metro di parete",
     "inertia_depth": "distanza di ciascuna dalla faccia esterna",
     "inertia_height": "quota di ciascuna sopra la base",
@@ -52,6 +53,8 @@ MEANINGS = {
     "thrust_depth": "distanza di ogni spinta dalla faccia esterna, la faccia interna se non assegnata",
     "thrust_height": "quota di ogni spinta sopra la base",
     "thrust_decay": "spostamento per cui ogni spinta si riduce a 1/e, costante se non assegnato",
+    "thrust_total": "forze orizzontali verso l'esterno lungo la bisettrice di un cantonale, ciascuna intera e non al"
+    " metro",
     "spring": "rigidezza delle molle che tirano e spingono, al metro di parete",
     "spring_depth": "distanza di ogni molla dalla faccia esterna",
     "spring_height": "quota di ogni molla sopra la base",
@@ -100,6 +103,9 @@ MEANINGS = {
     "wedge_top": "quota a cui ogni cuneo finisce",
     "wedge_length": "lunghezza massima di ogni cuneo dietro la faccia interna, fino alla prima apertura del muro"
     " trasversale",
+    "wing_angle": "angolo rispetto alla verticale delle lesioni nei due muri di un cantonale; 0: nessuna ala",
+    "wing_length": "lunghezza massima di ogni ala dietro la faccia interna dell'altro muro, fino alla prima apertura;"
+    " nessuna se non assegnata",
     "hinge": "quota della cerniera intermedia / altezza della parete",
     "hinge_range": "quote minima e massima, in rapporto all'altezza, tra cui si cerca la cerniera più debole; 0,1 e 0,9"
     " se non assegnate",

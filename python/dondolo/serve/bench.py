@@ -274,7 +274,7 @@ class Bench:
             ],
             "wall": picture(wall),
             "unchecked": ties_without_anchor(wall),
-            "leans": wall.building is None and wall.mechanism in ("one_sided", "two_block"),
+            "leans": wall.building is None and wall.mechanism in ("one_sided", "two_block", "corner"),
         }
         if fit.has_fit:
             answer |= curve_points(fit, 1.04 * float(stripes.levels[-1]))

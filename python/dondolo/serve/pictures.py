@@ -12,7 +12,7 @@ from dondolo.errors import InputError
 from dondolo.walls.drawing import support_height
 from dondolo.walls.drawing_loads import inner_face
 from dondolo.walls.parts import parts_of
-from dondolo.walls.shape import Points, shape
+from dondolo.walls.shape import Points, shape, width_of
 from dondolo.walls.wall import MasonryWall, Wall
 
 # Pictures of a film a second, and at most
@@ -26,7 +26,9 @@ def picture(wall: Wall) -> dict[str, Any] | None:
     if not isinstance(wall, MasonryWall):
         return None
     rest, leaning = shape(wall, 0.0), shape(wall, 0.5 * wall.capacity_angle)
-    t = wall.thickness
+    t = width_of(wall)
+    # Forces of a corner are those of the whole
+    force = "total" if wall.mechanism == "corner" else "force"
 
     def placed(of: str, *names: str) -> list[list[float]]:
         """Numbers of the parts of a kind, the depth turned into the place from the inner face."""
@@ -40,7 +42,7 @@ def picture(wall: Wall) -> dict[str, Any] | None:
         ]
 
     thrusts = [
-        [t - (inner_face(wall, part.height) if part.depth is None else part.depth), part.height, part.force]
+        [t - (inner_face(wall, part.height) if part.depth is None else part.depth), part.height, getattr(part, force)]
         for part in parts_of(wall, "thrusts")
     ]
     return {
@@ -50,7 +52,7 @@ def picture(wall: Wall) -> dict[str, Any] | None:
         "rest": _rounded(rest.blocks),
         "leaning": _rounded(leaning.blocks),
         "hinges": np.round(rest.hinges, 4).tolist(),
-        "loads": placed("loads", "force"),
+        "loads": placed("loads", force),
         "thrusts": thrusts,
         "ties": placed("ties", "plate_height", "plate_diameter"),
         "overburden": [getattr(wall, "overburden", 0.0) or 0.0, getattr(wall, "eccentricity", 0.0) or 0.0],

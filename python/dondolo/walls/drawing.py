@@ -16,9 +16,9 @@ from dondolo.figures.wording import say
 from dondolo.walls.chains import Chain
 from dondolo.walls.drawing_chain import draw_chain
 from dondolo.walls.drawing_loads import caption, draw_loads
-from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
-from dondolo.walls.shape import shape, wedges
+from dondolo.walls.shape import shape, wedges, width_of
 from dondolo.walls.wall import MasonryWall, Wall
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, given: dict[str, Any
     )
     # A legend's own marker would pass for one more hinge.
     base = now.hinges[0]
-    right = base[0] > 0.5 * wall.thickness
+    right = base[0] > 0.5 * width_of(wall)
     depth = wall.base_hinge_depth
     ax.annotate(
         say("hinge, {depth:.3g} mm deep", depth=1e3 * depth) if depth > 0.0 else say("hinge"),
@@ -109,7 +109,7 @@ def _moment(wall: TabulatedWall, rotation: ArrayLike) -> FloatArray:
 
 def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
     """The ground, the transverse wall of a one-sided wall, the top support of a two-block wall."""
-    t, h = wall.thickness, wall.height
+    t, h = width_of(wall), wall.height
     reach = _reach(wall)
     ax.plot([-reach, t + reach], [0.0, 0.0], color=style.BLACK, linewidth=1.6)
     if isinstance(wall, TwoBlockWall):
@@ -120,7 +120,8 @@ def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
         middle, is_whole = _free_height(wall)
         # Between labels of what holds the wall there is half the room.
-        text = say("transverse wall") if is_whole else say("transverse wall").replace(" ", "\n")
+        text = say("both walls") if isinstance(wall, Corner) else say("transverse wall")
+        text = text if is_whole else text.replace(" ", "\n")
         ax.annotate(text, (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=theme().note)
 
 
@@ -186,14 +187,14 @@ def _free_height(wall: MasonryWall) -> tuple[float, bool]:
 def _reach(wall: MasonryWall) -> float:
     """How much room to leave on both sides [m]."""
     behind = [-float(np.min(wedge)) for wedge in wedges(wall)]
-    return max(1.2 * wall.thickness, 0.22 * wall.height, *(1.15 * reach for reach in behind))
+    return max(1.2 * width_of(wall), 0.22 * wall.height, *(1.15 * reach for reach in behind))
 
 
 def frame(ax: Axes, wall: MasonryWall) -> None:
     """Scale and limits of the axes."""
     reach = _reach(wall)
     ax.set_aspect("equal")
-    ax.set_xlim(-reach, wall.thickness + 1.3 * reach)
+    ax.set_xlim(-reach, width_of(wall) + 1.3 * reach)
     ax.set_ylim(-0.04 * wall.height, 1.12 * wall.height)
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")

@@ -16,8 +16,8 @@ from dondolo.figures import style
 from dondolo.figures.themes import theme
 from dondolo.figures.wording import decimal, in_english, say
 from dondolo.walls.mechanisms import TwoBlockWall
-from dondolo.walls.parts import Tie, parts_of
-from dondolo.walls.shape import Points, Shape, moved, storeys
+from dondolo.walls.parts import Load, Thrust, Tie, parts_of
+from dondolo.walls.shape import Points, Shape, moved, storeys, width_of
 from dondolo.walls.wall import MasonryWall, effective_property
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
         _arrow_down(ax, other + part * (active - other), size, words, is_mass=lifted > 0.0)
     for load in parts_of(wall, "loads"):
         lifted, pushed = _PARTS[load.inertia] if load.inertia else (load.lifted, load.pushed)
-        words = f"{_with_prefix(load.force, 'N/m')} {_in_words(lifted, pushed)}"
+        words = f"{_force(load)} {_in_words(lifted, pushed)}"
         _arrow_down(ax, _place(wall, load.depth, load.height, rotation), size, words, is_mass=lifted > 0.0)
     for mass in parts_of(wall, "inertial_masses"):
         at = _place(wall, mass.depth, mass.height, rotation)
@@ -89,7 +89,7 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
         at = _place(wall, depth, thrust.height, rotation)
         arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
         ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
-        words = say("{force} thrust", force=_with_prefix(thrust.force, "N/m"))
+        words = say("{force} thrust", force=_force(thrust))
         _words(ax, np.subtract(at, (1.4 * size, 0.0)), words, (0, 4), ha="center")
     for spring in parts_of(wall, "springs"):
         at = _place(wall, spring.depth, spring.height, rotation)
@@ -182,7 +182,7 @@ def inner_face(wall: MasonryWall, height: float) -> float:
     """Depth of the inner face at a height, the innermost where storeys meet."""
     slack = 1e-6 * wall.height
     inner = [
-        wall.thickness - float(corners[0, 0])
+        width_of(wall) - float(corners[0, 0])
         for corners in storeys(wall)
         if corners[0, 1] - slack <= height <= corners[2, 1] + slack
     ]
@@ -191,9 +191,14 @@ def inner_face(wall: MasonryWall, height: float) -> float:
 
 def _place(wall: MasonryWall, depth: float, height: float, rotation: float) -> Points:
     """Where a point of a wall is."""
-    at: Points = moved(wall, np.array([[wall.thickness - depth, height]]), abs(rotation))[0]
+    at: Points = moved(wall, np.array([[width_of(wall) - depth, height]]), abs(rotation))[0]
     # What rocks to both sides carries in its middle, or as a strip the mirror image: docs/theory.md, section 2
-    return np.array([wall.thickness - at[0], at[1]]) if rotation < 0.0 else at
+    return np.array([width_of(wall) - at[0], at[1]]) if rotation < 0.0 else at
+
+
+def _force(part: Load | Thrust) -> str:
+    """The force of a load or a thrust, per metre of wall or in all."""
+    return _with_prefix(part.force, "N/m") if part.force is not None else _with_prefix(part.total or 0.0, "N")
 
 
 def _with_prefix(value: float, unit: str) -> str:
@@ -232,7 +237,7 @@ def _arrow_down(ax: Axes, at: Points, size: float, text: str, *, is_mass: bool) 
 
 def _spring(ax: Axes, wall: MasonryWall, at: Points, size: float, text: str) -> None:
     """A spring between the wall and what stands still, behind it or before it."""
-    away = 1.0 if at[0] > 0.5 * wall.thickness else -1.0
+    away = 1.0 if at[0] > 0.5 * width_of(wall) else -1.0
     along = np.array([0.0, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0, 1.2]) * size
     across = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0]) * 0.14 * size
     ax.plot(at[0] + away * along, at[1] + across, color=style.BLACK, linewidth=1.0, zorder=5)

@@ -7,19 +7,20 @@ from typing import Literal
 
 import numpy as np
 
-from dondolo._base.arguments import argument_error, as_array, instance_of
-from dondolo.walls.mechanisms import OneSidedWall, wall_from
+from dondolo._base.arguments import argument_error, as_array, wrong_type
+from dondolo.walls.mechanisms import Corner, OneSidedWall, wall_from
 from dondolo.walls.population import Population
 from dondolo.walls.wall import described
 
 
-def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
+def facade(wall: OneSidedWall | Corner, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
     """The walls above the hinges of a facade: see `Population.of_facade`."""
-    instance_of("wall", wall, OneSidedWall)
+    if not isinstance(wall, (OneSidedWall, Corner)):
+        raise wrong_type("wall", wall, "a OneSidedWall or a Corner")
     if isinstance(hinge_level, str):
         if hinge_level != "storeys":
             raise argument_error("wrong_type", "hinge_level", f" = {hinge_level!r}: must be heights or 'storeys'")
-        if not wall.sections:
+        if isinstance(wall, Corner) or not wall.sections:
             raise argument_error("not_together", "hinge_level", " = 'storeys': only with sections")
         levels = np.append(0.0, np.cumsum([section.height for section in wall.sections])[:-1])
     else:

@@ -19,7 +19,7 @@ from dondolo.walls.parts import DistributedSpring, InertialMass, Interlock, Load
 from dondolo.walls.wall import DEFAULT, MasonryWall, Terms, Wall, upload
 
 # What the package exports of the walls: a new mechanism is added here alone
-__all__ = ["Chain", "FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
+__all__ = ["Chain", "Corner", "FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -339,6 +339,82 @@ class TwoBlockWall(MasonryWall):
         return period
 
 
+@part_of_results
+@dataclass(frozen=True, repr=False)
+class Corner(MasonryWall):
+    """A corner of two walls at right angles that overturns along their bisector (*ribaltamento del cantonale*).
+
+    Cracks rise in both walls from the base of the corner, and the masonry above them turns about a hinge near its outer
+    edge. Depths of loads and thrusts are measured on the bisector, from the outer edge inwards; records are components
+    along the bisector (docs/mechanisms.md). Masses and forces are those of the whole corner, so that its loads and
+    thrusts have a `total` in place of a force per metre. Density, restitution_value, restitution_factor,
+    restitution_sd, restitution_seed, base_level, gravity, name and building are those of `OneSidedWall`; the only model
+    of restitution is 'impulse'.
+
+    Parameters
+    ----------
+    height : float
+        Height of the wall [m].
+    thickness : float
+        Thickness of the wall [m], of both walls.
+    wing_angle : float, optional
+        Angle of the cracks in both walls of a corner with the vertical; 0: no wings [deg]. Must be given.
+    wing_length : float, optional
+        Greatest length of each wing behind the inner face of the other wall, up to the first opening; none if not given
+        [m].
+    hinge_depth : float, optional
+        Depth of the hinge behind the outer face, of each hinge of two_block behind its face [m]: of a corner behind its
+        outer edge, on the bisector. It or compressive_strength must be given.
+    compressive_strength : float, optional
+        Strength of the masonry, from which that depth follows [Pa].
+    stress_block : float, optional
+        Stress in the compressed part of the base / that strength, 0.85 if not given.
+    loads : sequence of Load, optional
+        Vertical loads that go with the wall.
+    thrusts : sequence of Thrust, optional
+        Horizontal forces outwards, along the bisector.
+    hinge_level : float, optional
+        Heights of hinges: each makes a wall of what is above it [m]. The cracks then begin at this level.
+
+    Raises
+    ------
+    InputError
+        An invalid value; the message is that of the executable.
+
+    Examples
+    --------
+    A corner with a hip rafter that thrusts:
+
+    >>> import dondolo as dd
+    >>> corner = dd.Corner(
+    ...     3.2,
+    ...     0.5,
+    ...     density=1900.0,
+    ...     wing_angle=30.0,
+    ...     hinge_depth=0.03,
+    ...     loads=[dd.Load(total=6e3, depth=0.45, height=3.2, inertia="both")],
+    ...     thrusts=[dd.Thrust(total=2e3, depth=0.4, height=3.2)],
+    ... )
+    >>> round(corner.trigger_acceleration / corner.gravity, 4)
+    0.3269
+    """
+
+    mechanism: ClassVar[str] = "corner"
+
+    _: KW_ONLY
+    wing_angle: float = DEFAULT
+    wing_length: float | None = None
+    hinge_depth: float | None = None
+    compressive_strength: float | None = None
+    stress_block: float | None = None
+    loads: Sequence[Load] = ()
+    thrusts: Sequence[Thrust] = ()
+    hinge_level: InitVar[float | Sequence[float] | None] = None
+
+    def __post_init__(self, hinge_level: float | Sequence[float] | None) -> None:
+        self._understand(hinge_level=hinge_level)
+
+
 # Columns of the table of a tabulated wall
 TERMS = ("rotation", "inertia", "lever", "moment", "vertical_lever")
 
@@ -480,7 +556,7 @@ class TabulatedWall(Wall):
 
 
 MECHANISMS: dict[str, type[Wall]] = {
-    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, TabulatedWall, Chain)
+    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, Corner, TabulatedWall, Chain)
 }
 
 

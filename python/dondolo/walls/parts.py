@@ -118,11 +118,18 @@ class Load(Part):
     >>> floor = dd.Load(10e3, depth=0.175, height=3.0, inertia="both")
     >>> round(dd.OneSidedWall(3.0, 0.25, loads=[floor]).trigger_acceleration, 4)
     0.67
+
+    A load of 6 kN on a corner, which is no wall whose loads are per metre:
+
+    >>> rafter = dd.Load(total=6e3, depth=0.45, height=3.2, inertia="both")
+    >>> corner = dd.Corner(3.2, 0.5, wing_angle=20.0, hinge_depth=0.03, loads=[rafter])
+    >>> round(corner.trigger_acceleration / corner.gravity, 3)
+    0.291
     """
 
     word: ClassVar[str] = "load"
 
-    force: float
+    force: float | None = None
     _: KW_ONLY
     depth: float
     height: float
@@ -130,6 +137,7 @@ class Load(Part):
     lifted: float | None = None
     pushed: float | None = None
     seat: float | None = None
+    total: float | None = None
 
 
 @_described
@@ -170,11 +178,12 @@ class Thrust(Part):
 
     word: ClassVar[str] = "thrust"
 
-    force: float
+    force: float | None = None
     _: KW_ONLY
     depth: float | None = None
     height: float
     decay: float | None = None
+    total: float | None = None
 
 
 @_described

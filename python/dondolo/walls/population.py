@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.walls.distributions import Distribution
-    from dondolo.walls.mechanisms import OneSidedWall
+    from dondolo.walls.mechanisms import Corner, OneSidedWall
     from dondolo.walls.sampling import Property
 
 # Words of each row
@@ -312,13 +312,13 @@ class Population(WallRows, Shown):
 
     @classmethod
     def of_facade(
-        cls, wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys"
+        cls, wall: OneSidedWall | Corner, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys"
     ) -> Population:
         """Make the walls of a facade that can turn out about several hinges.
 
         Parameters
         ----------
-        wall : OneSidedWall
+        wall : OneSidedWall or Corner
             The whole facade, its hinge at the base.
         hinge_level : sequence of float or 'storeys'
             Heights of the hinges above the base [m]; 'storeys' for the bottom of each section.

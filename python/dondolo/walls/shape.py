@@ -5,12 +5,13 @@ Positions follow docs/theory.md, section 2. Outwards is to the right, so that de
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TwoBlockWall
 from dondolo.walls.parts import Section, parts_of
 from dondolo.walls.wall import MasonryWall
 
@@ -48,7 +49,7 @@ def shape(wall: MasonryWall, rotation: float) -> Shape:
     Shape
     """
     side = -1.0 if rotation < 0.0 else 1.0
-    t, q = wall.thickness, abs(rotation)
+    t, q = width_of(wall), abs(rotation)
     if isinstance(wall, TwoBlockWall):
         blocks, hinges = _two_blocks(wall, q)
     else:
@@ -69,6 +70,11 @@ def shape(wall: MasonryWall, rotation: float) -> Shape:
     return Shape(blocks, hinges)
 
 
+def width_of(wall: MasonryWall) -> float:
+    """What the base of a wall covers of the plane of its motion [m]: its thickness, of a corner its diagonal."""
+    return wall.thickness * math.sqrt(2.0) if isinstance(wall, Corner) else wall.thickness
+
+
 def storeys(wall: MasonryWall) -> list[Points]:
     """The storeys of one block at rest, those of its outer leaf if it has several.
 
@@ -82,20 +88,20 @@ def storeys(wall: MasonryWall) -> list[Points]:
     list of ndarray, shape (4, 2)
         Corners of each from the bottom [m], as in `Shape.blocks`.
     """
-    sections = parts_of(wall, "sections") or (Section(wall.height, wall.thickness),)
+    sections = parts_of(wall, "sections") or (Section(wall.height, width_of(wall)),)
     leaves = getattr(wall, "leaves", None) or 1.0
     found = []
     bottom = 0.0
     for section in sections:
         thickness = section.thickness / leaves
-        left = wall.thickness - (section.offset or 0.0) - thickness
+        left = width_of(wall) - (section.offset or 0.0) - thickness
         found.append(np.add(_rectangle(thickness, section.height), (left, bottom)))
         bottom += section.height
     return found
 
 
 def wedges(wall: MasonryWall) -> list[Points]:
-    """The wedges of transverse walls behind the storeys of a wall at rest; equal ones once.
+    """The wedges of transverse walls behind the storeys of a wall at rest; equal ones once. Of a corner its wings.
 
     Parameters
     ----------
@@ -108,13 +114,21 @@ def wedges(wall: MasonryWall) -> list[Points]:
         Corners of the part of each in each storey [m].
     """
     found = {}
-    for wedge in parts_of(wall, "wedges"):
-        slope = np.tan(np.radians(wedge.angle))
-        full = wedge.bottom + wedge.length / slope if slope > 0.0 else wedge.top
+    given = [
+        (math.tan(math.radians(wedge.angle)), wedge.bottom, wedge.top, wedge.length)
+        for wedge in parts_of(wall, "wedges")
+    ]
+    if isinstance(wall, Corner):
+        # Seen along the normal to the bisector, both wings are one
+        seen = math.sqrt(0.5)
+        length = math.inf if wall.wing_length is None else wall.wing_length
+        given = [(seen * math.tan(math.radians(wall.wing_angle)), 0.0, wall.height, seen * length)]
+    for slope, bottom, top, length in given:
+        full = bottom + length / slope if slope > 0.0 else top
         for corners in storeys(wall):
-            low, high = max(corners[0, 1], wedge.bottom), min(corners[2, 1], wedge.top)
+            low, high = max(corners[0, 1], bottom), min(corners[2, 1], top)
             levels = [low, *([full] if low < full < high else []), high]
-            reach = [min(slope * (level - wedge.bottom), wedge.length) for level in levels]
+            reach = [min(slope * (level - bottom), length) for level in levels]
             if high > low and max(reach) > 0.0:
                 face = corners[0, 0]
                 back = [(face - far, level) for far, level in zip(reach, levels, strict=True)]
@@ -152,7 +166,7 @@ def moved(wall: MasonryWall, points: Points, rotation: float) -> Points:
             above, _turned(points - lower, corner, back) + (top - corner), _turned(points, base, -rotation)
         )
         return folded
-    centre = np.array([wall.thickness - wall.base_hinge_depth, _edge(wall)])
+    centre = np.array([width_of(wall) - wall.base_hinge_depth, _edge(wall)])
     turned: Points = np.add(_turned(points, centre, -rotation), (_edge(wall) * rotation, 0.0))
     return turned
 

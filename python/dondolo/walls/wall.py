@@ -50,7 +50,8 @@ _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "fr
 
 
 class Terms(NamedTuple):
-    """Terms of the equation of motion J q'' + C q'^2 + G = -s L u_g'' + Q at some rotations, per metre of wall.
+    """Terms of the equation of motion J q'' + C q'^2 + G = -s L u_g'' + Q at some rotations, per metre of wall; of a
+    corner or a chain, whole.
 
     Attributes
     ----------
@@ -75,7 +76,7 @@ class Terms(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Wall:
-    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall`,
+    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall`, `Corner`,
     `TabulatedWall` or `Chain`.
 
     Every number that is left out (None) gets its default from the Fortran library and is then an attribute of the wall.
@@ -118,7 +119,8 @@ class Wall:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
             raise TypeError(
-                "Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall, TabulatedWall or Chain"
+                "Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall, Corner, TabulatedWall or"
+                " Chain"
             )
         if self.building is not None:
             instance_of("building", self.building, Building)

@@ -268,8 +268,8 @@ contains
          return
       end if
       if (contact == leans .and. input%has('diaphragm_period')) call problems%note('diaphragm_period = '// &
-         & to_text(input%number('diaphragm_period'))//': only of a two_block wall; a one_sided wall leans on transverse walls, '// &
-         & 'which do not move with a diaphragm', not_together, 'diaphragm_period')
+         & to_text(input%number('diaphragm_period'))//': only of a two_block wall; a one_sided wall and a corner lean on '// &
+         & 'transverse walls, which do not move with a diaphragm', not_together, 'diaphragm_period')
       building%height = wall_height
       if (.not. input%has('level')) return
       level = input%number('level')

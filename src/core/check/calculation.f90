@@ -1,6 +1,6 @@
 !> The sums behind a kinematic check, item by item, so that they can be made again by hand: of a wall that turns about its base its
-!> storeys, wedges of transverse walls, loads, masses, thrusts and ties; of a strip that bends its two blocks, the load on top, and
-!> what acts between; of a chain its bodies and what acts on them.
+!> storeys, wedges of transverse walls, loads, masses, thrusts and ties; of a corner its square and its wings in place of storeys;
+!> of a strip that bends its two blocks, the load on top, and what acts between; of a chain its bodies and what acts on them.
 !>
 !> A unit of rotation lifts an item by its arm and moves it outwards by its lever:
 !>
@@ -16,6 +16,7 @@ module dondolo_check_calculation
    use dondolo_wall_chain, only : chain_type, motion_type, point_motion
    use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_chain_terms, only : set_at_rest
+   use dondolo_wall_corner, only : body_of_wing, edge_of_corner
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_rigid_body, only : body_of_sections, rigid_body_type, same
    use dondolo_wall_tabulated_model, only : tabulated_model_type
@@ -25,15 +26,15 @@ module dondolo_check_calculation
    implicit none
    private
 
-   public :: item_type, list_items, is_given, wedge_word
+   public :: item_type, list_items, is_given, wedge_word, wing_word
 
-   !> How the names of wedges of transverse walls begin
-   character(len=*), parameter :: wedge_word = 'wedge'
+   !> How the names of wedges of transverse walls begin, and those of the wings of a corner
+   character(len=*), parameter :: wedge_word = 'wedge', wing_word = 'wing'
 
    !> Value of a number that an item does not have
    real(wp), parameter :: none = -huge(1.0_wp)
 
-   !> A term of the sums, per metre of wall; of a chain whole
+   !> A term of the sums, per metre of wall; of a chain and of a corner whole
    type :: item_type
       !> Name
       character(len=24) :: name = ''
@@ -175,6 +176,10 @@ contains
       real(wp) :: bottom, density
       integer :: i
 
+      if (allocated(wall%corner)) then
+         call list_corner(items, wall, gravity)
+         return
+      end if
       whole = body_of_sections(wall%sections, 1.0_wp)
       density = (wall%body%mass - sum(wall%wedges%body%mass))/whole%mass
       bottom = 0.0_wp
@@ -200,11 +205,44 @@ contains
          item%second = none
          items = [items, item]
       end if
+      items = [items, as_one_point(wall, gravity)]
+   end subroutine list_masonry
+
+   !> List the square of a corner and its wings, and the masonry as one point
+   subroutine list_corner(items, wall, gravity)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(wall_body_type), intent(in) :: wall
+      !> [m/s2]
+      real(wp), intent(in) :: gravity
+
+      type(rigid_body_type) :: part
+      type(item_type) :: item
+      integer :: i
+
+      part = edge_of_corner(wall%corner)
+      item = weighed('corner 1', gravity*part%mass, part%depth, part%height, wall%actions%hinge)
+      item%second = none
+      items = [items, item]
+      part = body_of_wing(wall%corner)
+      do i = 1, merge(2, 0, part%mass > 0.0_wp)
+         item = weighed(wing_word//' '//to_text(i), gravity*part%mass, part%depth, part%height, wall%actions%hinge)
+         item%second = none
+         items = [items, item]
+      end do
+      items = [items, as_one_point(wall, gravity)]
+   end subroutine list_corner
+
+   !> The masonry as one point, which its parts are in the sums of moments
+   pure function as_one_point(wall, gravity) result(item)
+      type(wall_body_type), intent(in) :: wall
+      !> [m/s2]
+      real(wp), intent(in) :: gravity
+      type(item_type) :: item
+
       item = weighed('masonry', gravity*wall%body%mass, wall%body%depth, wall%body%height, wall%actions%hinge)
       item%stabilising = none
       item%first = none
-      items = [items, item]
-   end subroutine list_masonry
+   end function as_one_point
 
    !> List what acts on a wall
    subroutine list_actions(items, wall, gravity)

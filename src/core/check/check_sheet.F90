@@ -73,7 +73,7 @@ module dondolo_check_sheet
       & quantity_type('opening_demand', 'S_eZ(T_e)', 'g', 'spectral acceleration at that period, of the ground or at the level'), &
       & quantity_type('opening_ratio', '', '', 'capacity / demand of the opening; information, no check'), &
       & quantity_type('alpha_0', 'alpha_0', '', 'multiplier that starts the mechanism'), &
-      & quantity_type('bare_alpha_0', 'alpha_0,bare', '', 'the same without the wedges of transverse walls'), &
+      & quantity_type('bare_alpha_0', 'alpha_0,bare', '', 'the same without wedges of transverse walls, or without wings'), &
       & quantity_type('mass', 'M*', 'kg/m', 'mass that takes part'), &
       & quantity_type('mass_ratio', 'e*', '', 'the same / the whole mass'), &
       & quantity_type('a_0', 'a_0*', 'm/s2', 'spectral acceleration that starts the mechanism, alpha_0 g/(e* FC)'), &
@@ -186,6 +186,8 @@ module dondolo_check_sheet
    type :: sheet_type
       !> Its lines
       type(sheet_row_type), allocatable :: rows(:)
+      !> Are masses and forces those of a whole body, and not per metre of wall?
+      logical :: is_whole = .false.
    contains
       !> Add a line
       procedure :: add
@@ -247,12 +249,22 @@ contains
       row%quantity%name = name
       at = find_quantity(name)
       if (at > 0) row%quantity = quantities(at)
+      if (self%is_whole) row%quantity%unit = in_all(row%quantity%unit)
       row%value = value
       if (present(formula)) row%formula = formula
       if (present(item)) row%item = item
       if (present(working)) row%working = working
       call self%append(row)
    end subroutine add
+
+   !> The unit of a quantity of a whole body, of which those per metre of wall have '/m' at their end
+   elemental function in_all(unit) result(whole)
+      character(len=*), intent(in) :: unit
+      character(len=len(unit)) :: whole
+
+      whole = unit
+      if (index(unit, '/m ') > 0) whole = unit(:index(unit, '/m ') - 1)
+   end function in_all
 
    !> Add a line that is made
    pure subroutine append(self, row)

@@ -63,7 +63,7 @@ contains
             element%is_free = model%two_sided .or. input%has('young_modulus')
             if (input%has('free')) element%is_free = element%is_free .or. input%holds('free')
             element%may_be_free = .not. (element%is_free .or. input%has('free')) .and. size(model%body%actions%restraints) == 0 &
-               & .and. is_above(wall)
+               & .and. is_above(wall) .and. .not. allocated(model%body%corner)
             if (.not. input%has('young_modulus')) return
             moduli = input%list('young_modulus')
             element%modulus = [minval(moduli), maxval(moduli)]

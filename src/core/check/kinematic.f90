@@ -31,11 +31,10 @@ module dondolo_check_kinematic
    use dondolo_base_error, only : error_type, not_at_rest, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_building_input, only : spans
-   use dondolo_check_calculation, only : is_given, item_type, list_items, wedge_word
+   use dondolo_check_calculation, only : is_given, item_type, list_items, wedge_word, wing_word
    use dondolo_check_free_element, only : free_element_type, new_free_element
    use dondolo_check_table_check, only : new_table_check, table_check_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_body, only : wall_body_type
    use dondolo_wall_elastic_joint, only : elastic_joint_type
@@ -56,10 +55,10 @@ module dondolo_check_kinematic
    type :: kinematic_type
       !> Multiplier that starts the mechanism alpha_0
       real(wp) :: multiplier = 0.0_wp
-      !> Mass that takes part M* [kg/m], of a wall whose quantities are those of the whole [kg]
-      real(wp) :: mass = 0.0_wp
-      !> Are its quantities those of the whole, not per metre?
+      !> Are masses and forces those of a whole body, and not per metre of wall?
       logical :: is_whole = .false.
+      !> Mass that takes part M* [kg/m], of a whole body [kg]
+      real(wp) :: mass = 0.0_wp
       !> The same / the whole mass, e*
       real(wp) :: mass_ratio = 0.0_wp
       !> Displacement at which the multiplier vanishes d_0 [m]
@@ -90,7 +89,8 @@ module dondolo_check_kinematic
       real(wp) :: first_period = 0.0_wp
       !> Sums over the items of the calculation: moments against the mechanism and with it, weight times lever, and lever squared
       real(wp) :: stabilising = 0.0_wp, overturning = 0.0_wp, first = 0.0_wp, second = 0.0_wp
-      !> Of them those of wedges of transverse walls: the moment that they resist with, and weight times lever
+      !> Of them those of wedges of transverse walls, or of the wings of a corner: the moment that they resist with, and weight
+      !> times lever
       real(wp) :: wedge_moment = 0.0_wp, wedge_first = 0.0_wp
       !> Forces on the base of a wall that turns about it: weights that it carries, thrusts, and ties and friction [N/m]
       real(wp) :: carried = 0.0_wp, thrust = 0.0_wp, restraint = 0.0_wp
@@ -144,6 +144,7 @@ contains
       kinematic%mechanism = wall%mechanism
       kinematic%joint = wall%mechanism%joint
       kinematic%gravity = wall%gravity
+      kinematic%is_whole = wall%model%is_whole
       call take_building(kinematic, wall, error)
       if (allocated(error)) return
       select type (model => wall%model)
@@ -178,7 +179,7 @@ contains
       kinematic%overturning = sum(items%overturning, mask=is_given(items%overturning))
       kinematic%first = sum(items%first, mask=is_given(items%first))
       kinematic%second = sum(items%second, mask=is_given(items%second))
-      associate (of_wedges => index(items%name, wedge_word//' ') == 1)
+      associate (of_wedges => index(items%name, wedge_word//' ') == 1 .or. index(items%name, wing_word//' ') == 1)
          kinematic%wedge_moment = sum(items%stabilising, mask=of_wedges)
          kinematic%wedge_first = sum(items%first, mask=of_wedges)
       end associate
@@ -281,10 +282,6 @@ contains
       first = sum(model%weight*model%displacement)
       second = sum(model%weight*model%displacement**2)
       kinematic%weight = sum(model%weight)
-      select type (model)
-      type is (chain_model_type)
-         kinematic%is_whole = .true.
-      end select
       kinematic%mass = first**2/second/kinematic%gravity
       kinematic%mass_ratio = first**2/(kinematic%weight*second)
    end subroutine take_table

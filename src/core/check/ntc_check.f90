@@ -53,6 +53,7 @@ contains
 
       allocate (others(0))
       if (present(curves)) others = curves
+      sheet%is_whole = kinematic%is_whole
       if (allocated(input%place)) call put_place(sheet, input%place)
       do i = 1, merge(3, 1, input%has_states())
          call put_site(sheet, kinematic, input, i)
@@ -162,7 +163,6 @@ contains
       if (kinematic%wedge_first > 0.0_wp) call put_bare_facade(sheet, kinematic)
       call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5', working=working_type('(sum P z)^2/(g sum P z^2)', &
          & trim(shown(kinematic%first))//'^2/('//times(kinematic%gravity, kinematic%second)//')'))
-      if (kinematic%is_whole) sheet%rows(size(sheet%rows))%quantity%unit = 'kg'
       call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5', working=working_type('g M*/sum P', &
          & times(kinematic%gravity, kinematic%mass)//'/'//shown(kinematic%weight)))
       call put_activation(sheet, 'mechanism', '', kinematic, input%knowledge_factor)
@@ -178,7 +178,8 @@ contains
          & 'C8.7.1.4')
    end subroutine put_mechanism
 
-   !> Put the multiplier of a facade without its wedges of transverse walls, its hinge and its loads where they are
+   !> Put the multiplier of a facade without its wedges of transverse walls, or of a corner without its wings, its hinge and its
+   !> loads where they are
    pure subroutine put_bare_facade(sheet, kinematic)
       type(sheet_type), intent(inout) :: sheet
       type(kinematic_type), intent(in) :: kinematic

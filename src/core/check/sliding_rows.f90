@@ -35,7 +35,7 @@ contains
                if (floors%down(i) > 0.0_wp) call put_hinge(hinges(i), floors%across(i), floors%down(i))
             end do
          end associate
-      else if (kinematic%carried > 0.0_wp .and. .not. kinematic%is_whole) then
+      else if (kinematic%carried > 0.0_wp .and. .not. allocated(kinematic%table)) then
          ! Of a chain the forces at the hinges do not follow from the sums.
          call put_base(trim(hinges(1)))
       end if

@@ -1,4 +1,5 @@
-!> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts, springs, ties and friction, per metre of wall.
+!> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts, springs, ties and friction, per metre of wall
+!> or, of a body that is no wall, in all.
 !>
 !> Places are a depth behind the outer face of the base and a height above the base (docs/theory.md, section 2).
 module dondolo_wall_carried
@@ -57,9 +58,23 @@ module dondolo_wall_carried
       real(wp) :: hinge = 0.0_wp
       !> Radius a of the edge that the wall rolls on; the hinge at rest is then as deep [m]
       real(wp) :: edge = 0.0_wp
+      !> Are forces and masses those of a whole body, and not per metre of wall?
+      logical :: is_whole = .false.
+   contains
+      !> What follows the units of forces and masses
+      procedure :: per_metre
    end type actions_type
 
 contains
+
+   !> What follows the units of forces and masses: '/m', or nothing of a whole body
+   pure function per_metre(self) result(text)
+      class(actions_type), intent(in) :: self
+      !> Filled up with blanks
+      character(len=2) :: text
+
+      text = merge('  ', '/m', self%is_whole)
+   end function per_metre
 
    !> Describe loads and masses, a line each
    subroutine describe_actions(actions, lines)
@@ -71,9 +86,10 @@ contains
 
       do i = 1, size(actions%carried)
          associate (thing => actions%carried(i))
-            if (thing%weight > 0.0_wp) call lines%add('load: '//rounded(thing%weight)//' N/m at depth '// &
-               & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m; pushed '//rounded(thing%pushed)// &
-               & ' kg/m, lifted '//rounded(thing%lifted)//' kg/m')
+            if (thing%weight > 0.0_wp) call lines%add('load: '//rounded(thing%weight)//' N'//trim(actions%per_metre())// &
+               & ' at depth '//rounded(thing%depth)//' m, height '//rounded(thing%height)//' m; pushed '// &
+               & rounded(thing%pushed)//' kg'//trim(actions%per_metre())//', lifted '//rounded(thing%lifted)//' kg'// &
+               & trim(actions%per_metre()))
             if (.not. thing%weight > 0.0_wp) call lines%add('mass: '//rounded(thing%pushed)//' kg/m pushed at depth '// &
                & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m')
          end associate

@@ -1,7 +1,8 @@
 !> The depth of the hinges of a wall behind its faces: given, or from the strength of the masonry that is crushed there.
 !>
 !> The weight N on a hinge is carried by a block of the stress beta f over 2 u, whose resultant is the hinge:
-!> u = N/(2 beta f) (equation (3) of AlShawa et al. 2023; docs/theory.md, section 2).
+!> u = N/(2 beta f) (equation (3) of AlShawa et al. 2023; docs/theory.md, section 2). At a corner of right angles the block is a
+!> triangle on the bisector, a deep and 2 a wide: a = sqrt(N/(beta f)), u = 2 a/3.
 module dondolo_wall_hinge_depth
    use dondolo_base_error, only : not_together, out_of_range, problems_type
    use dondolo_base_kinds, only : wp
@@ -17,10 +18,10 @@ module dondolo_wall_hinge_depth
 contains
 
    !> The depth of the hinges, and the property that it follows from
-   subroutine read_hinge_depth(input, weight, problems, depth, name)
+   subroutine read_hinge_depth(input, weight, problems, depth, name, at_corner)
       !> Settings of the wall, defaults filled in
       class(settings_type), intent(in) :: input
-      !> Weight on the base hinge, of the wall and all that it carries [N/m]
+      !> Weight on the base hinge, of the wall and all that it carries [N/m], of a corner in all [N]
       real(wp), intent(in) :: weight
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -28,6 +29,8 @@ contains
       real(wp), intent(out) :: depth
       !> Name of the property
       character(len=name_length), intent(out) :: name
+      !> Is the base a corner? Not present: no
+      logical, intent(in), optional :: at_corner
 
       real(wp), parameter :: usual_block = 0.85_wp
       real(wp) :: block
@@ -41,6 +44,8 @@ contains
       if (.not. input%has('compressive_strength')) return
       depth = weight/(2.0_wp*block*input%number('compressive_strength'))
       name = 'compressive_strength'
+      if (.not. present(at_corner)) return
+      if (at_corner) depth = 2.0_wp/3.0_wp*sqrt(2.0_wp*depth)
    end subroutine read_hinge_depth
 
    !> Check that a hinge is less deep than what it must hold

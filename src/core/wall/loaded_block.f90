@@ -378,9 +378,12 @@ contains
       if (mechanism%moment(0.0_wp) > 0.0_wp) return
       associate (carried => actions%carried, thrusts => actions%thrusts)
          holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
-         call raise_input(error, 'thrust: the wall is not stable at rest'//trim(merge(' without its ties', '                 ', &
+         call raise_input(error, trim(merge('thrust_total', 'thrust      ', actions%is_whole))// &
+            & ': the wall is not stable at rest'//trim(merge(' without its ties', '                 ', &
             & size(actions%restraints) > 0))//'; its weights resist with '//rounded(holds)// &
-            & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)), not_at_rest, 'thrust')
+            & trim(merge(' N m          ', ' N m per metre', actions%is_whole))//', thrusts push it out with '// &
+            & rounded(sum(thrusts%force*thrusts%height)), not_at_rest, &
+            & trim(merge('thrust_total', 'thrust      ', actions%is_whole)))
       end associate
    end subroutine check_rest
 

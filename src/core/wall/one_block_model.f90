@@ -1,4 +1,4 @@
-!> Walls of one block: 'one_sided' and 'free_standing'. Their names, their properties, and how one becomes a mechanism.
+!> Walls of one block: 'one_sided', 'free_standing' and 'corner'. Their names, their properties, and how one becomes a mechanism.
 !>
 !> A one-sided wall, such as a facade or a parapet, leans on transverse walls and can only fall outwards. A free-standing wall,
 !> such as a pinnacle, rocks to both sides. A bare rectangle is equation (1) of Nale et al. (dondolo_wall_single_block); with
@@ -12,14 +12,16 @@ module dondolo_wall_one_block_model
    use dondolo_base_text, only : rounded
    use dondolo_building_input, only : leans
    use dondolo_wall_block, only : block_type, new_block
-   use dondolo_wall_body, only : read_wall_body, take_sections, wall_body_type
+   use dondolo_wall_body, only : read_corner_body, read_wall_body, take_sections, wall_body_type
    use dondolo_wall_carried, only : describe_actions
+   use dondolo_wall_corner, only : body_of_wing, corner_name
    use dondolo_wall_free_wall, only : check_free
    use dondolo_wall_loaded_block, only : loaded_block_type, new_loaded_block
    use dondolo_wall_loaded_impact, only : one_sided_impulse, two_sided_impulse
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_model, only : wall_model_type
    use dondolo_wall_restitution, only : impact_models_type
+   use dondolo_wall_rigid_body, only : rigid_body_type
    use dondolo_wall_single_block, only : housner_restitution, new_single_block, one_sided_restitution, single_block_type
    use dondolo_wall_two_block_model, only : two_block_name
    implicit none
@@ -40,6 +42,17 @@ module dondolo_wall_one_block_model
    !> Why what acts on the wall does not go with several leaves: one of them would have all of it, the others nothing
    character(len=*), parameter :: on_one_leaf = 'it acts on one leaf; describe each leaf as a wall of its own thickness, '// &
       & 'both in one facade'
+
+   !> Owner of what only a corner has
+   character(len=choices_length), parameter :: corner(most_choices) = reshape([corner_name], [most_choices], pad=blank)
+
+   !> Owners of what a corner has too: places of loads and thrusts, which may change as they travel; hinges above the base
+   character(len=choices_length), parameter :: loaded(most_choices) = &
+      & reshape([one_block_names, two_block_name, corner_name], [most_choices], pad=blank)
+   character(len=choices_length), parameter :: seated(most_choices) = &
+      & reshape([one_block_names, corner_name], [most_choices], pad=blank)
+   character(len=choices_length), parameter :: leaning(most_choices) = &
+      & reshape([one_block_names(:1), corner_name], [most_choices], pad=blank)
 
    !> Owners of what strips between floors have too: loads, masses and thrusts; ties
    character(len=choices_length), parameter :: carrying(most_choices) = &
@@ -75,7 +88,7 @@ module dondolo_wall_one_block_model
       & property_type('leaves', is_integer, owners=one_sided, optional=.true., smallest=1.0_wp, largest=10.0_wp, &
       &   example='2', neutral=1.0_wp, &
       &   meaning='number of equal leaves that nothing connects: each rocks alone with its part of the thickness'), &
-      & property_type('hinge_level', is_list, unit='m', owners=one_sided, optional=.true., replaced=.true., &
+      & property_type('hinge_level', is_list, unit='m', owners=leaning, optional=.true., replaced=.true., &
       &   smallest=0.0_wp, largest=1.0e3_wp, example='0.0, 4.0, 7.5', neutral=0.0_wp, &
       &   not_with='mass', because='which does not say how much of it is above', usual_most=60.0_wp, &
       &   meaning='heights of hinges: each makes a wall of what is above it', &
@@ -107,23 +120,26 @@ module dondolo_wall_one_block_model
       &   usual_least=100.0_wp, usual_most=1.0e6_wp, if_more='is it per metre of wall?', &
       &   not_with='leaves', because=on_one_leaf, &
       &   example='12.0e3, 6.0e3', meaning='vertical loads that go with the wall, per metre of wall'), &
-      & property_type('load_depth', is_list, unit='m', owners=carrying, optional=.true., example='0.5, 0.35', &
+      & property_type('load_depth', is_list, unit='m', owners=loaded, optional=.true., example='0.5, 0.35', &
       &   usual_most=3.0_wp, &
       &   meaning='depth of each load behind the outer face'), &
-      & property_type('load_height', is_list, unit='m', owners=carrying, optional=.true., example='4.0, 7.5', &
+      & property_type('load_height', is_list, unit='m', owners=loaded, optional=.true., example='4.0, 7.5', &
       &   one_each=.true., usual_most=60.0_wp, &
       &   meaning='height of each load above the base'), &
-      & property_type('load_inertia', is_words, owners=carrying, optional=.true., &
+      & property_type('load_inertia', is_words, owners=loaded, optional=.true., &
       &   choices=reshape(load_inertias, [most_choices], pad=blank), more='one for all loads, or one for each', &
       &   not_with='load_lifted, load_pushed', &
       &   example='''both''', meaning='which mass of each load the wall moves'), &
-      & property_type('load_lifted', is_list, owners=carrying, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
+      & property_type('load_lifted', is_list, owners=loaded, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
       &   example='1.0, 0.5', meaning='part of each load whose mass the wall lifts, with load_pushed instead of load_inertia'), &
-      & property_type('load_pushed', is_list, owners=carrying, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
+      & property_type('load_pushed', is_list, owners=loaded, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
       &   example='0.3, 0.0', meaning='part of each load whose mass the wall pushes'), &
-      & property_type('load_seat', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
+      & property_type('load_seat', is_list, unit='m', owners=seated, optional=.true., positive=.true., &
       &   example='0.15, 0.15', usual_most=2.0_wp, &
       &   meaning='horizontal travel at which each load loses its seat'), &
+      & property_type('load_total', is_list, unit='N', owners=corner, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
+      &   usual_least=100.0_wp, usual_most=1.0e6_wp, example='6.0e3, 4.0e3', &
+      &   meaning='vertical loads that go with a corner, each in all and not per metre'), &
       & property_type('inertia_mass', is_list, unit='kg/m', owners=carrying, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, example='600.0', usual_least=5.0_wp, not_with='leaves', because=on_one_leaf, &
       &   meaning='masses that the wall pushes and does not carry, per metre of wall'), &
@@ -136,15 +152,18 @@ module dondolo_wall_one_block_model
       & property_type('thrust', is_list, unit='N/m', owners=carrying, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, usual_least=10.0_wp, usual_most=1.0e5_wp, not_with='leaves', because=on_one_leaf, &
       &   if_more='is it per metre of wall?', example='1.0e3', meaning='horizontal forces outwards, per metre of wall'), &
-      & property_type('thrust_depth', is_list, unit='m', owners=carrying, optional=.true., example='0.3', &
+      & property_type('thrust_depth', is_list, unit='m', owners=loaded, optional=.true., example='0.3', &
       &   usual_most=3.0_wp, &
       &   meaning='depth of each thrust behind the outer face, the inner face if not given'), &
-      & property_type('thrust_height', is_list, unit='m', owners=carrying, optional=.true., example='7.5', &
+      & property_type('thrust_height', is_list, unit='m', owners=loaded, optional=.true., example='7.5', &
       &   one_each=.true., usual_most=60.0_wp, &
       &   meaning='height of each thrust above the base'), &
-      & property_type('thrust_decay', is_list, unit='m', owners=one_block, optional=.true., smallest=1.0e-4_wp, &
+      & property_type('thrust_decay', is_list, unit='m', owners=seated, optional=.true., smallest=1.0e-4_wp, &
       &   example='0.05', usual_most=3.0_wp, &
       &   meaning='travel over which each thrust falls to 1/e, constant if not given'), &
+      & property_type('thrust_total', is_list, unit='N', owners=corner, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
+      &   usual_least=10.0_wp, usual_most=1.0e5_wp, example='2.0e3', &
+      &   meaning='horizontal forces outwards along the bisector of a corner, each in all and not per metre'), &
       & property_type('spring', is_list, unit='N/m2', owners=one_block, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, example='50.0e3', usual_least=500.0_wp, not_with='leaves', because=on_one_leaf, &
       &   meaning='stiffness of springs that pull and push, per metre of wall'), &
@@ -285,7 +304,7 @@ contains
       type(problems_type), intent(inout) :: problems
 
       self%two_sided = input%word('mechanism') == 'free_standing'
-      if (input%word('mechanism') == 'one_sided') self%contact = leans
+      if (any(input%word('mechanism') == leaning)) self%contact = leans
       call take_sections(problems, input)
    end subroutine prepare
 
@@ -300,9 +319,15 @@ contains
       type(problems_type), intent(inout) :: problems
 
       if (problems%count > 0) return
-      call read_wall_body(input, gravity, self%two_sided, problems, self%body)
-      if (problems%count == 0) call check_free(input, self%body%sections, problems)
-      if (problems%count == 0) self%is_bare = self%is_bare .and. .not. self%has_wedges()
+      if (input%word('mechanism') == corner_name) then
+         call read_corner_body(input, gravity, problems, self%body)
+         self%is_whole = .true.
+         self%is_bare = .false.
+      else
+         call read_wall_body(input, gravity, self%two_sided, problems, self%body)
+         if (problems%count == 0) call check_free(input, self%body%sections, problems)
+         if (problems%count == 0) self%is_bare = self%is_bare .and. .not. self%has_wedges()
+      end if
       self%hinge_depth = self%body%actions%hinge
    end subroutine read
 
@@ -351,8 +376,8 @@ contains
          if (self%two_sided) then
             impacts%impulse = two_sided_impulse(self%body)
          else
-            ! Equation (2) of Nale et al. is that of a block, not of one with wedges
-            if (.not. self%has_wedges()) impacts%sorrentino = &
+            ! Equation (2) of Nale et al. is that of a block, not of one with wedges nor of a corner
+            if (.not. (self%has_wedges() .or. allocated(self%body%corner))) impacts%sorrentino = &
                & -one_sided_restitution(atan2(self%body%body%depth, self%body%body%height))
             impacts%impulse = -one_sided_impulse(self%body)
          end if
@@ -376,11 +401,20 @@ contains
       !> `subject: numbers with their units`
       type(lines_type), intent(inout) :: lines
 
+      type(rigid_body_type) :: wing
       integer :: i
 
       associate (body => self%body%body, actions => self%body%actions)
-         call lines%add('masonry: '//rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer face, '// &
-            & rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
+         if (allocated(self%body%corner)) then
+            call lines%add('masonry: '//rounded(body%mass)//' kg, centroid '//rounded(body%depth)//' m behind the outer edge '// &
+               & 'on the bisector, '//rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2')
+            wing = body_of_wing(self%body%corner)
+            if (wing%mass > 0.0_wp) call lines%add('wings: '//rounded(wing%mass)//' kg of the masonry each, centroid '// &
+               & rounded(wing%depth)//' m deep on the bisector, '//rounded(wing%height)//' m high')
+         else
+            call lines%add('masonry: '//rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer '// &
+               & 'face, '//rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
+         end if
          do i = 1, size(self%body%wedges)
             associate (wedge => self%body%wedges(i))
                call lines%add('wedge: '//rounded(wedge%body%mass)//' kg/m of the masonry, from '//rounded(wedge%bottom)//' to '// &
@@ -390,8 +424,9 @@ contains
          end do
          call describe_actions(actions, lines)
          call lines%add('moments: weights hold with '//rounded(gravity*body%mass*(body%depth - actions%hinge) &
-            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m/m, thrusts push out with '// &
-            & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m/m')
+            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m'// &
+            & trim(actions%per_metre())//', thrusts push out with '// &
+            & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m'//trim(actions%per_metre()))
       end associate
    end subroutine describe
 

@@ -8,6 +8,7 @@ module dondolo_wall_body
    use dondolo_base_unit_hint, only : unit_question
    use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_carried, only : actions_type, carried_type, spring_type, thrust_type
+   use dondolo_wall_corner, only : body_of_corner, check_corner_hinge, corner_reach, corner_type, read_corner
    use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_wall_interlocking, only : read_interlocking
    use dondolo_wall_lists, only : take
@@ -17,12 +18,14 @@ module dondolo_wall_body
    implicit none
    private
 
-   public :: wall_body_type, take_sections, read_strip_body, read_wall_body
+   public :: wall_body_type, take_sections, read_corner_body, read_strip_body, read_wall_body
 
    !> A wall of one block
    type :: wall_body_type
-      !> Its storeys from the bottom
+      !> Its storeys from the bottom; of a corner what its square base covers of the bisector, from the outer to the inner edge
       type(section_type), allocatable :: sections(:)
+      !> The corner that it is; not allocated: it is none
+      type(corner_type), allocatable :: corner
       !> Wedges of transverse walls that turn with it; not allocated: of a strip
       type(wedge_type), allocatable :: wedges(:)
       !> The masonry, with its wedges, as one body
@@ -90,8 +93,8 @@ contains
       before = problems%count
       call read_sections(input, problems, wall%sections)
       call read_wedges(input, wall%sections, problems, wall%wedges)
-      call read_loads(input, gravity, problems, wall%actions%carried)
-      call read_thrusts(input, wall%sections, problems, wall%actions%thrusts)
+      call read_loads(input, gravity, problems, wall%actions%carried, 'load')
+      call read_thrusts(input, wall%sections, problems, wall%actions%thrusts, 'thrust')
       call read_springs(input, problems, wall%actions%springs)
       if (problems%count > before) return
       wall%body = body_of_sections(wall%sections, input%number('density'))
@@ -111,6 +114,32 @@ contains
       if (two_sided) call check_symmetry(input, problems, wall)
    end subroutine read_wall_body
 
+   !> Read a corner, what it carries and what pushes it, whole and in the plane of its bisector
+   subroutine read_corner_body(input, gravity, problems, wall)
+      !> Settings of the wall, defaults filled in, ranges checked
+      class(settings_type), intent(in) :: input
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> The wall; undefined if something is wrong
+      type(wall_body_type), intent(out) :: wall
+
+      integer :: before
+
+      before = problems%count
+      allocate (wall%corner, wall%wedges(0), wall%anchors(0), wall%actions%springs(0), wall%actions%restraints(0))
+      wall%actions%is_whole = .true.
+      call read_corner(input, problems, wall%corner)
+      wall%sections = [section_type(wall%corner%height, sqrt(2.0_wp)*wall%corner%thickness)]
+      call read_loads(input, gravity, problems, wall%actions%carried, 'load_total')
+      call read_thrusts(input, wall%sections, problems, wall%actions%thrusts, 'thrust_total')
+      if (problems%count > before) return
+      wall%body = body_of_corner(wall%corner)
+      call read_hinge(input, gravity, problems, wall)
+      call check_places(input, problems, wall)
+   end subroutine read_corner_body
+
    !> Read what acts between base and top of a strip: loads, masses, thrusts and ties
    subroutine read_strip_body(input, gravity, hinge, problems, strip)
       !> Settings of the strip, defaults filled in, ranges checked
@@ -125,8 +154,8 @@ contains
       strip%sections = [section_type(input%number('height'), input%number('thickness'))]
       strip%body = body_of_sections(strip%sections, input%number('density'))
       strip%actions%hinge = hinge
-      call read_loads(input, gravity, problems, strip%actions%carried)
-      call read_thrusts(input, strip%sections, problems, strip%actions%thrusts)
+      call read_loads(input, gravity, problems, strip%actions%carried, 'load')
+      call read_thrusts(input, strip%sections, problems, strip%actions%thrusts, 'thrust')
       allocate (strip%actions%springs(0))
       call check_places(input, problems, strip)
       call read_ties(input, strip%sections, hinge, 0.0_wp, problems, strip%actions%restraints, strip%anchors)
@@ -222,7 +251,7 @@ contains
    end subroutine take_inertia
 
    !> Loads, and masses that are pushed alone
-   subroutine read_loads(input, gravity, problems, carried)
+   subroutine read_loads(input, gravity, problems, carried, name)
       !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
@@ -231,33 +260,35 @@ contains
       type(problems_type), intent(inout) :: problems
       !> Loads and masses
       type(carried_type), allocatable, intent(out) :: carried(:)
+      !> Name of the list of loads
+      character(len=*), intent(in) :: name
 
       real(wp), allocatable :: load(:), depth(:), height(:), seat(:), mass(:), mass_depth(:), mass_height(:)
       real(wp), allocatable :: lifted(:), pushed(:)
       integer :: words, i
       logical :: by_parts
 
-      load = input%list('load')
-      call take(input, problems, 'load_depth', 'load', depth)
-      call take(input, problems, 'load_height', 'load', height)
-      call take(input, problems, 'load_seat', 'load', seat, huge(1.0_wp))
+      load = input%list(name)
+      call take(input, problems, 'load_depth', name, depth)
+      call take(input, problems, 'load_height', name, height)
+      call take(input, problems, 'load_seat', name, seat, huge(1.0_wp))
       mass = input%list('inertia_mass')
       call take(input, problems, 'inertia_depth', 'inertia_mass', mass_depth)
       call take(input, problems, 'inertia_height', 'inertia_mass', mass_height)
       words = number_of_words(input%word('load_inertia'))
       by_parts = input%has('load_lifted') .or. input%has('load_pushed')
       if (by_parts) then
-         call take(input, problems, 'load_lifted', 'load', lifted)
-         call take(input, problems, 'load_pushed', 'load', pushed)
+         call take(input, problems, 'load_lifted', name, lifted)
+         call take(input, problems, 'load_pushed', name, pushed)
       else if (size(load) > 0 .and. words == 0) then
-         call problems%note('load_inertia: must be given with load: ''none'' (a dead force), ''vertical'' (a mass that '// &
+         call problems%note('load_inertia: must be given with '//name//': ''none'' (a dead force), ''vertical'' (a mass that '// &
             & 'other walls hold sideways) or ''both'' (a mass that the wall pushes too); or load_lifted and load_pushed', &
             & not_given, 'load_inertia')
       else if (size(load) == 0 .and. words > 0) then
-         call problems%note('load_inertia: only with load', not_together, 'load_inertia')
+         call problems%note('load_inertia: only with '//name, not_together, 'load_inertia')
       else if (words > 1 .and. words /= size(load)) then
          call problems%note('load_inertia: has '//to_text(words)//' values, must have '//to_text(size(load))// &
-            & ' as load, or one for all', wrong_length, 'load_inertia')
+            & ' as '//name//', or one for all', wrong_length, 'load_inertia')
       end if
       allocate (carried(size(load) + size(mass)))
       do i = 1, size(load)
@@ -284,7 +315,7 @@ contains
    end subroutine read_loads
 
    !> Thrusts; their depth is that of the inner face unless it is given
-   subroutine read_thrusts(input, sections, problems, thrusts)
+   subroutine read_thrusts(input, sections, problems, thrusts, name)
       !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Its storeys
@@ -293,14 +324,16 @@ contains
       type(problems_type), intent(inout) :: problems
       !> Thrusts
       type(thrust_type), allocatable, intent(out) :: thrusts(:)
+      !> Name of the list of thrusts
+      character(len=*), intent(in) :: name
 
       real(wp), allocatable :: depth(:), height(:), decay(:)
       real(wp) :: faces(2)
       integer :: i
 
-      call take(input, problems, 'thrust_height', 'thrust', height)
-      call take(input, problems, 'thrust_depth', 'thrust', depth, -huge(1.0_wp))
-      call take(input, problems, 'thrust_decay', 'thrust', decay, huge(1.0_wp))
+      call take(input, problems, 'thrust_height', name, height)
+      call take(input, problems, 'thrust_depth', name, depth, -huge(1.0_wp))
+      call take(input, problems, 'thrust_decay', name, decay, huge(1.0_wp))
       do i = 1, size(depth)
          if (depth(i) > -huge(1.0_wp)) cycle
          faces = faces_at(sections, height(i))
@@ -309,7 +342,7 @@ contains
       allocate (thrusts(size(depth)))
       thrusts%depth = depth
       thrusts%height = height
-      thrusts%force = input%list('thrust')
+      thrusts%force = input%list(name)
       thrusts%decay = decay
    end subroutine read_thrusts
 
@@ -353,7 +386,8 @@ contains
       character(len=name_length) :: name
       integer :: i
 
-      call read_hinge_depth(input, gravity*wall%body%mass + sum(wall%actions%carried%weight), problems, hinge, name)
+      call read_hinge_depth(input, gravity*wall%body%mass + sum(wall%actions%carried%weight), problems, hinge, name, &
+         & allocated(wall%corner))
       edge = input%number('edge_radius')
       if (edge > 0.0_wp) then
          hinge = edge
@@ -363,6 +397,7 @@ contains
       wall%actions%edge = edge
       call check_hinge(input, problems, name, hinge, wall%body%depth, 'the centroid of the wall, '// &
          & rounded(wall%body%depth)//' m', 'section_offset')
+      if (allocated(wall%corner)) call check_corner_hinge(wall%corner, input, problems, name, hinge)
       ! What is behind the facade does not bear on its base
       if (any(wall%wedges%body%mass > 0.0_wp)) call check_hinge(input, problems, name, hinge, &
          & 0.5_wp*wall%sections(1)%thickness, 'half the thickness of the facade, '// &
@@ -387,7 +422,7 @@ contains
 
       integer :: i, loads, springs
 
-      loads = size(input%list('load'))
+      loads = size(input%list(trim(merge('load_total', 'load      ', allocated(wall%corner)))))
       springs = size(input%list('spring'))
       associate (actions => wall%actions)
          do i = 1, size(actions%carried)
@@ -423,13 +458,15 @@ contains
          tall = sum(wall%sections%height)
          faces = faces_at(wall%sections, height)
          if (allocated(wall%wedges)) faces(2) = faces(2) + wedge_reach(wall%wedges, height)
+         if (allocated(wall%corner) .and. faces(1) <= faces(2)) faces(2) = corner_reach(wall%corner, height)
          if (faces(1) > faces(2)) then
             call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
                & rounded(tall)//' m, the wall'//trim(unit_question('m', height, 0.0_wp, tall, 0.5_wp*tall)), out_of_range, &
                & what//trim(merge('_top   ', '_height', what == 'distributed_spring')))
          else if (depth < faces(1) - same*tall .or. depth > faces(2) + same*tall) then
             call problems%note(what//' '//to_text(number)//': its depth '//to_text(depth)//' must lie between '// &
-               & rounded(faces(1))//' and '//rounded(faces(2))//' m, the faces of the wall at its height'// &
+               & rounded(faces(1))//' and '//rounded(faces(2))//' m, '//trim(merge('the outer edge and the ends of the wings', &
+               & 'the faces of the wall                   ', allocated(wall%corner)))//' at its height'// &
                & trim(unit_question('m', depth, faces(1), faces(2), 0.5_wp*sum(faces))), out_of_range, what//'_depth')
          end if
       end subroutine inside

@@ -21,6 +21,8 @@ module dondolo_wall_model
       integer :: contact = touches_base
       !> Is nothing given but what every wall of its mechanism has?
       logical :: is_bare = .true.
+      !> Are masses and forces those of a whole body, and not per metre of wall?
+      logical :: is_whole = .false.
       !> Half diagonal of the wall, or of its lowest block [m]
       real(wp) :: radius = 0.0_wp
       !> Slenderness angle of the same [rad]

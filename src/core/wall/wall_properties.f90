@@ -9,6 +9,7 @@ module dondolo_wall_properties
    use dondolo_base_settings, only : settings_type
    use dondolo_building_input, only : building_rows
    use dondolo_wall_chain_model, only : chain_rows
+   use dondolo_wall_corner, only : corner_name, corner_rows
    use dondolo_wall_free_wall, only : free_rows
    use dondolo_wall_one_block_model, only : one_block_action_rows, one_block_body_rows, one_block_names
    use dondolo_wall_restitution, only : restitution_models
@@ -25,11 +26,12 @@ module dondolo_wall_properties
 
    !> Names of the mechanisms of blocks of masonry, and of all
    character(len=choices_length), parameter :: masonry_names(*) = [one_block_names, two_block_name]
-   character(len=choices_length), parameter :: mechanism_names(*) = [masonry_names, tabulated_name, chain_name]
+   character(len=choices_length), parameter :: mechanism_names(*) = [masonry_names, corner_name, tabulated_name, &
+      & chain_name]
 
    !> Owners of what blocks of masonry have
    character(len=choices_length), parameter :: of_blocks(most_choices) = &
-      & reshape(masonry_names, [most_choices], pad=blank)
+      & reshape([masonry_names, corner_name], [most_choices], pad=blank)
 
    !> What every wall has
    type(property_type), parameter :: general_rows(*) = [ &
@@ -81,7 +83,7 @@ module dondolo_wall_properties
    character(len=*), parameter :: rare_names(3) = [character(len=16) :: 'restitution_sd', 'restitution_seed', 'base_level']
 
    !> The rows of the wall itself, in the order in which a user thinks of them
-   type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, wedge_rows, hinge_rows, &
+   type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, wedge_rows, corner_rows, hinge_rows, &
       & one_block_action_rows, free_rows, two_block_hinge_rows, two_block_joint_rows, impact_rows, two_block_load_rows, &
       & tabulated_rows, chain_rows]
 

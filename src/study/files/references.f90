@@ -40,7 +40,7 @@ module dondolo_files_references
       &   'Baker, Jack W.', &
       &   'Efficient analytical fragility function fitting using dynamic structural analysis', &
       &   'Earthquake Spectra', 2015, '31', '579--599'), &
-      & reference_type('housner1963', 'article', 'one_sided free_standing free_standing/default', &
+      & reference_type('housner1963', 'article', 'one_sided free_standing corner free_standing/default', &
       &   'Housner, George W.', &
       &   'The behavior of inverted pendulum structures during earthquakes', &
       &   'Bulletin of the Seismological Society of America', 1963, '53', '403--417'), &

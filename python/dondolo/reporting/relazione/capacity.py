@@ -11,7 +11,7 @@ import math
 from typing import Any, NamedTuple
 
 from dondolo._fortran.checks import SheetRow
-from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
+from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, Root, symbol_of
 from dondolo.reporting.content import Piece, Symbol, Table
 from dondolo.reporting.numerals import NONE, Numeral
 from dondolo.reporting.relazione.document import Document, _
@@ -52,17 +52,17 @@ def end_of(document: Document, one: Subject) -> list[Block]:
         return [document.say(_("{d0} = {value} m is that of the code: springs or a rounded edge of the hinge have"
                                " terms that the sums lack."),
                              d0=symbol_of("d_0*"), value=shown(d0))]  # fmt: skip
-    moment = UNITS["N m/m"]
+    moment = one.unit("N m/m")
     top: list[Any] = [symbol_of("M_stab,P"), " - ", symbol_of("M_ov")]
     numbers: list[Any] = [shown(sums.weights, moment), " - ", shown(sums.thrusts, moment)]
-    total, first, second = _sum("P", "z"), shown(sums.first, moment), shown(sums.second, UNITS["N m2/m"])
+    total, first, second = _sum("P", "z"), shown(sums.first, moment), shown(sums.second, one.unit("N m2/m"))
     lowered, lowered_numbers = _lowered(sums, with_ties=False)
     return [
         *_set_back(one, sums),
         document.say(
             _(
                 "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
-                " {sum} kNm/m. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
+                " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
                 " hold no longer:"
             ),
             theta=_THETA,
@@ -71,6 +71,7 @@ def end_of(document: Document, one: Subject) -> list[Block]:
             value=shown(sums.hinge),
             first=_sum("P", "e"),
             sum=shown(sums.arms, moment),
+            unit=moment.name,
             d0=symbol_of("d_0*"),
             moment=symbol_of("M_stab,P"),
         ),
@@ -86,13 +87,27 @@ def _set_back(one: Subject, sums: Turning) -> list[Block]:
     weight = math.fsum(item.force for item in one.check.items if item.item != "masonry" and item.stabilising > 0.0
                        and not math.isnan(item.arm))  # fmt: skip
     strength = getattr(one.wall, "compressive_strength", None)
-    if not strength or not math.isclose(weight / (1.7 * strength), sums.hinge, rel_tol=_SAME):
+    if not strength:
+        return []
+    if one.is_whole:
+        return _crushed_corner(weight, strength, sums.hinge)
+    if not math.isclose(weight / (1.7 * strength), sums.hinge, rel_tol=_SAME):
         return []
     under = ("2 · ", shown(0.85), " ", symbol_of("f"))
     numbers = (shown(weight, UNITS["N/m"]), " kN/m"), ("2 · ", shown(0.85), " · ", shown(strength, UNITS["Pa"]), " MPa")
     return [
         Formula((symbol_of("u"), Fraction(("Σ", symbol_of("P")), under), Fraction(*numbers), (shown(sums.hinge), " m")))
     ]
+
+
+def _crushed_corner(weight: float, strength: float, hinge: float) -> list[Block]:
+    """The depth of the hinge of a corner, two thirds of that of a triangle of right angles that is crushed."""
+    if not math.isclose(2.0 / 3.0 * math.sqrt(weight / (0.85 * strength)), hinge, rel_tol=_SAME):
+        return []
+    under = (shown(0.85), " ", symbol_of("f"))
+    numbers = (shown(weight, UNITS["N"]), " kN"), (shown(0.85), " · ", shown(strength, UNITS["Pa"]), " MPa")
+    parts = Root((Fraction(("Σ", symbol_of("P")), under),)), Root((Fraction(*numbers),))
+    return [Formula((symbol_of("u"), ("2/3 ", parts[0]), ("2/3 ", parts[1]), (shown(hinge), " m")))]
 
 
 def capacity_of(document: Document, one: Subject, row: SheetRow) -> list[Block]:
@@ -126,7 +141,7 @@ def capacity_of(document: Document, one: Subject, row: SheetRow) -> list[Block]:
             " of the hinge or ties that have not yielded, which the sums of the table do not have."
         )  # fmt: skip
         return [*blocks, document.say(text, a=symbol_of("a(d_C)"), value=shown(a))]
-    moment = UNITS["N m/m"]
+    moment = one.unit("N m/m")
     theta = Symbol("θ", "C")
     cosine = math.sqrt(1.0 - sine**2)
     held = held and sums.ties > 0.0
@@ -150,18 +165,18 @@ def capacity_of(document: Document, one: Subject, row: SheetRow) -> list[Block]:
     symbols = [Formula((left, (rest, *cos, " - ", fall, *sin))), Formula((moved, bottom))] if is_first else []
     under = sums.first * cosine + sums.arms * sine
     over, below = shown(alpha * under, moment), shown(under, moment)
-    first, second = shown(sums.first, moment), shown(sums.second, UNITS["N m2/m"])
+    first, second = shown(sums.first, moment), shown(sums.second, one.unit("N m2/m"))
     total = _sum("P", "z")
     return [
         *blocks,
         Formula((("sin ", theta), (symbol_of("d_C"), " ", Fraction(total, (*total, "²"))),
                  (shown(d), " · ", Fraction(first, second)), shown(sine))),
-        Formula((rest, (name, " - ", symbol_of("M_ov")), (shown(at_rest, moment), " kNm/m"))),
-        Formula((fall, lowered, lowered_numbers, (shown(falling, moment), " kNm/m"))),
+        Formula((rest, (name, " - ", symbol_of("M_ov")), (shown(at_rest, moment), f" {moment.name}"))),
+        Formula((fall, lowered, lowered_numbers, (shown(falling, moment), f" {moment.name}"))),
         *symbols[:1],
-        Formula((left, top_numbers, (over, " kNm/m"))),
+        Formula((left, top_numbers, (over, f" {moment.name}"))),
         *symbols[1:],
-        Formula((moved, bottom_numbers, (below, " kNm/m"))),
+        Formula((moved, bottom_numbers, (below, f" {moment.name}"))),
         Formula((symbol_of("alpha(d_C)"), Fraction(left, moved), Fraction(over, below), shown(alpha))),
     ]  # fmt: skip
 

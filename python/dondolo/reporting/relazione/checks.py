@@ -33,7 +33,7 @@ from dondolo.reporting.relazione.sums import (
 from dondolo.reporting.relazione.tabulated import table_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
 from dondolo.walls.chains import Chain
-from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
 # Displacements of the sheet, which are small
@@ -99,22 +99,28 @@ def _reactions(document: Document) -> list[Block]:
     several = [(name, one) for name, one in document.each() if one.is_turning]
     if not several:
         return []
-    unit = UNITS["N/m"]
+    # Beside those of a whole body each number has its unit
+    is_mixed = any(one.is_whole for _name, one in several)
+    head = _("force on the base") if is_mixed else _("force on the base [kN/m]")
     columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("force on the base [kN/m]")): [
+        document.text(head): [
             document.text(_("vertical, downwards, ΣP")),
             document.text(_("horizontal without earthquake, outwards, ΣH - Σ σ₀ A")),
             document.text(_("horizontal at activation, outwards, ΣH + α₀ Σ(P + Q) - ΣT")),
         ]
     }
     for name, one in several:
-        columns[name] = [cell(value, unit, 5) for value in reactions_of(one)]
+        shown_as = quantity if is_mixed else cell
+        columns[name] = [shown_as(value, one.unit("N/m"), 5) for value in reactions_of(one)]
+    caption = _("Forces that the wall transmits to its base, per metre.")
+    if is_mixed:
+        caption = _("Forces that the wall transmits to its base.")
     words = _(
         "The reactions V and H of the base on the wall, drawn at activation, are equal and opposite to these forces."
         " Without earthquake a tie has its preload {preload} alone."
     )
     return [
-        CaptionedTable(Table.of(columns), document.text(_("Forces that the wall transmits to its base, per metre."))),
+        CaptionedTable(Table.of(columns), document.text(caption)),
         document.say(words, preload=symbol_of("sigma_0")),
     ]
 
@@ -224,7 +230,7 @@ def _chance(found: Chance | None) -> Piece:
 def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     """The items with their sums, so that the multiplier can be made again by hand."""
     items, turns = one.check.items, one.is_turning
-    force, moment, second = (UNITS[f"{unit}{one.per}"] for unit in ("N", "N m", "N m2"))
+    force, moment, second = one.unit("N/m"), one.unit("N m/m"), one.unit("N m2/m")
 
     def column(field: str, unit: Unit, figures: int = FIGURES) -> list[Piece]:
         values = [getattr(item, field) for item in items]
@@ -271,11 +277,11 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     }
     for place, (head, cells) in enumerate(columns.items()):
         cells.append(document.text(_("sum")) if not place else ends.get(head, ""))
-    words = (
-        _("Calculation of the multiplier, item by item, per metre of wall")
-        if one.per
-        else _("Calculation of the multiplier, item by item, of the whole chain")
-    )
+    words = _("Calculation of the multiplier, item by item, per metre of wall")
+    if one.is_whole:
+        words = _("Calculation of the multiplier, item by item, of the whole chain")
+    if isinstance(one.wall, Corner):
+        words = _("Calculation of the multiplier, item by item, of the whole corner")
     caption = document.titled(document.text(words), name)
     return CaptionedTable(Table.of(columns), caption, strong=1)  # type: ignore[arg-type]
 

@@ -14,7 +14,6 @@ from dondolo.reporting.relazione.capacity import shown
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import Turning, sums_of, turning_of
-from dondolo.reporting.units import UNITS
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 
@@ -109,11 +108,11 @@ def _bare_sine(sums: Turning) -> float:
 
 def _bare_steps(document: Document) -> list[Block]:
     """The formula of that displacement with its numbers, of walls that turn about their base."""
-    moment, second = UNITS["N m/m"], UNITS["N m2/m"]
     found: dict[float, Any] = {}
     for one in document.subjects.several:
         if not one.is_turning:
             continue
+        moment, second = one.unit("N m/m"), one.unit("N m2/m")
         sums = turning_of(one.check.items)
         sine, lowered = _bare_sine(sums), shown(sums.first - sums.pushed, moment)
         numbers = (

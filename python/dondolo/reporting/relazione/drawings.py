@@ -21,7 +21,7 @@ from dondolo.reporting.relazione.sums import is_held, reactions_of, taken_of, ti
 from dondolo.reporting.relazione.tabulated import Terms
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
-from dondolo.walls.shape import shape
+from dondolo.walls.shape import shape, width_of
 from dondolo.walls.wall import MasonryWall, upload
 
 if TYPE_CHECKING:
@@ -62,15 +62,16 @@ def draw_wall(document: Document, one: Subject) -> Any:
         rotation = max(rotation, _SEEN)
     now, later = shape(wall, 0.0), shape(wall, rotation)
     hinge, behind = now.hinges[0], -min(float(block[:, 0].min()) for block in now.blocks)
-    reach = max(1.3 * wall.thickness, 0.26 * wall.height, behind)
+    width = width_of(wall)
+    reach = max(1.3 * width, 0.26 * wall.height, behind)
     for ax in (rest, moved):
         for block in now.blocks:
             ax.fill(*block.T, facecolor=_PALE if ax is rest else "none", edgecolor=_DARK if ax is rest else _MIDDLE,
                     linewidth=0.9, linestyle="-" if ax is rest else "--")  # fmt: skip
-        ax.plot([-0.85 * reach, wall.thickness + reach], [0.0, 0.0], color=_DARK, linewidth=1.4)
+        ax.plot([-0.85 * reach, width + reach], [0.0, 0.0], color=_DARK, linewidth=1.4)
         ax.set_aspect("equal")
         ax.axis("off")
-        ax.set_xlim(-1.3 * reach, wall.thickness + 1.5 * reach)
+        ax.set_xlim(-1.3 * reach, width + 1.5 * reach)
         ax.set_ylim(-0.13 * wall.height, 1.14 * wall.height)
     for block in later.blocks:
         moved.fill(*block.T, facecolor=_PALE, edgecolor=_DARK, linewidth=0.9)
@@ -80,9 +81,9 @@ def draw_wall(document: Document, one: Subject) -> Any:
     _items(document, rest, one, reach)
     base = later.hinges[0]
     if not isinstance(wall, TwoBlockWall):
-        forces = reactions_of(one)
-        _arrow(moved, base, (base[0], -0.11 * wall.height), f"V = {_kilo(document, forces.vertical)} kN/m", up=True)
-        words = f"H = {_kilo(document, abs(forces.activated))} kN/m"
+        forces, unit = reactions_of(one), one.unit("N/m").name
+        _arrow(moved, base, (base[0], -0.11 * wall.height), f"V = {_kilo(document, forces.vertical)} {unit}", up=True)
+        words = f"H = {_kilo(document, abs(forces.activated))} {unit}"
         # The base holds the wall against the force that it takes from it: below the ground, clear of the hinge.
         side, low = 1.0 if forces.activated >= 0.0 else -1.0, -0.05 * wall.height
         start = (base[0] + side * 0.6 * reach, low)
@@ -118,7 +119,7 @@ _ARROW = {"arrowstyle": "-|>", "color": _DARK, "linewidth": 1.1, "shrinkA": 0.0,
 
 
 def _kilo(document: Document, value: float) -> str:
-    """A force in kN/m, in characters."""
+    """A force in kN/m or kN, in characters."""
     return document.language.decimal(f"{1e-3 * value:.4g}")
 
 
@@ -133,8 +134,8 @@ def _dimensions(document: Document, ax: Axes, one: Subject, reach: float) -> Non
     assert isinstance(wall, MasonryWall)
     x, bottom = -1.05 * reach, 0.0
     parts = getattr(wall, "sections", ()) or ()
-    sizes = [(part.height, part.thickness) for part in parts] or [(wall.height, wall.thickness)]
-    right = wall.thickness
+    sizes = [(part.height, part.thickness) for part in parts] or [(wall.height, width_of(wall))]
+    right = width_of(wall)
     if isinstance(wall, TwoBlockWall):
         middle = wall.hinge * wall.height
         sizes = [(middle, right), (wall.height - middle, right)]
@@ -150,7 +151,7 @@ def _dimensions(document: Document, ax: Axes, one: Subject, reach: float) -> Non
 
 
 # Letters of the items; of what is not among them P
-_LETTERS = {"load": "N", "mass": "Q", "thrust": "H", "tie": "T", "friction": "F", "wedge": "C"}
+_LETTERS = {"load": "N", "mass": "Q", "thrust": "H", "tie": "T", "friction": "F", "wedge": "C", "wing": "A"}
 # Blocks of a strip: their weights, and whether the hinge is below them
 _BLOCKS = {"lower block": ("P1", 0.0), "upper block": ("P2", 1.0)}
 # Fields of a wall with the parts that items stand for
@@ -161,7 +162,7 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
     """Weights, thrusts and ties where they act."""
     wall = one.checked
     assert isinstance(wall, MasonryWall)
-    right = wall.thickness
+    right = width_of(wall)
     for item in one.check.items:
         if item.item in _BLOCKS and isinstance(wall, TwoBlockWall):
             name, share = _BLOCKS[item.item]
@@ -192,7 +193,7 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
                 [right + 0.02, right + 0.02], [z - 0.03 * wall.height, z + 0.03 * wall.height], color=_DARK, linewidth=3
             )
             ax.annotate(words, (right + 0.06, z), (4, -8), textcoords="offset points", fontsize=_WORDS)
-        elif word in ("section", "wedge"):
+        elif word in ("section", "wedge", "corner", "wing"):
             ax.plot(x, z, marker="+", markersize=8, color=_DARK)
             # Wedges are about as high as each other
             lower = 11 * (int(count) - 1) - 5 if word == "wedge" else 0
@@ -200,7 +201,7 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
         else:
             ax.annotate("", (x, z), (x, z + 0.09 * wall.height), arrowprops=_ARROW)
             ax.annotate(words, (right, z + 0.05 * wall.height), (6, 0), textcoords="offset points", fontsize=_WORDS)
-    ax.annotate("kN/m", (right + 0.9 * reach, -0.11 * wall.height), ha="center", fontsize=_WORDS)
+    ax.annotate(one.unit("N/m").name, (right + 0.9 * reach, -0.11 * wall.height), ha="center", fontsize=_WORDS)
 
 
 def draw_capacity(document: Document, one: Subject) -> Any:

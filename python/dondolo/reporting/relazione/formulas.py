@@ -20,7 +20,7 @@ from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.sums import sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell
 from dondolo.walls.chains import Chain
-from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 
 # Figures of what is to be calculated again by hand
 FIGURES = 6
@@ -68,10 +68,9 @@ def formulas_of(document: Document, row: SheetRow, check: CodeCheck, symbol: str
     symbol : str
         Of the quantity; '' for that of the row.
     """
-    given = _GIVEN
-    if isinstance(check.wall, Chain):
-        given = {name: unit.removesuffix("/m") for name, unit in _GIVEN.items()}
-    units = {one.symbol: one.unit for one in check.rows} | given
+    units = {one.symbol: one.unit for one in check.rows} | _GIVEN
+    if isinstance(check.wall, (Chain, Corner)):
+        units = {name: unit.removesuffix("/m") for name, unit in units.items()}
     # Numbers in formulas have eight figures, of which six would be rounded twice.
     exact = {f"{value:.8g}": value for value in (*(one.value for one in check.rows), *sums_of(check.items).values())}
     leaves, values = _leaves(row.expression), _leaves(row.numbers)

@@ -26,7 +26,7 @@ from dondolo.reporting.relazione.ties import open_ties_of
 from dondolo.reporting.tested import sentences
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
 from dondolo.walls.chains import Chain
-from dondolo.walls.mechanisms import OneSidedWall, TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, OneSidedWall, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
 _STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
@@ -349,7 +349,7 @@ def modelling(document: Document) -> list[Block]:
         )
         blocks.append(document.say(words, alpha=symbol_of("alpha_0"), d0=symbol_of("d_0*")))
         blocks += document.written("chain_hinges", _("why these hinges are the weakest, and others that were tried"))
-    if any(isinstance(wall, OneSidedWall) for wall in walls):
+    if any(isinstance(wall, (Corner, OneSidedWall)) for wall in walls):
         blocks.append(document.say(_("The calculation assumes that the wall does not turn inwards.")))
         blocks += document.written("inward_rotation", _("why the wall does not turn inwards"))
     if any(parts_of(wall, "ties") for wall in walls):
@@ -369,6 +369,15 @@ def modelling(document: Document) -> list[Block]:
         words = _(
             "Wedges of the transverse walls turn with the wall: their angles and lengths are a judgement on the bond of"
             " the masonry. They act by their weight and their mass alone, without friction on the cracks."
+        )
+        blocks.append(document.say(words))
+    if any(one.is_whole for one in document.subjects.several):
+        words = _(
+            "A corner overturns along the bisector of its two walls: its square base carries a wing of each wall, above"
+            " a crack whose angle is a judgement on the bond of the masonry. Depths are measured on the bisector, from"
+            " the outer edge; the hinge is behind this edge. Masses and forces of a corner are those of the whole. The"
+            " demand is the spectrum of one component of the motion, along the bisector, of which the Circolare says"
+            " nothing."
         )
         blocks.append(document.say(words))
     if any(one.is_on_floor for one in document.subjects.several):
@@ -412,12 +421,13 @@ def _travels(document: Document) -> tuple[Any, ...]:
 
 def actions(document: Document) -> list[Block]:
     """Chapter 6."""
+    is_corner = any(isinstance(one.wall, Corner) for one in document.subjects.several)
     whole = [
         document.say(
             _("{wall}: forces are those of the whole chain, heights and depths those of its tables."), wall=name
         )
         for name, one in document.each()
-        if not one.per
+        if isinstance(one.wall, Chain)
     ]
     if len(whole) == len(document.subjects.several):
         words = _(
@@ -430,6 +440,7 @@ def actions(document: Document) -> list[Block]:
         Heading(document.text(_("Actions and seismic combination"))),
         *whole,
         *_per_metre(document),
+        *([document.say(_("Forces of a corner are in all, not per metre."))] if is_corner else []),
         document.say(
             _(
                 "{p} are the weights that a wall carries, its own among them, {q} those of masses that it pushes"
@@ -449,7 +460,7 @@ def actions(document: Document) -> list[Block]:
 
 def _per_metre(document: Document) -> list[Block]:
     """The conventions of walls whose forces are per metre, if there are any."""
-    if not any(one.per for one in document.subjects.several):
+    if all(isinstance(one.wall, Chain) for one in document.subjects.several):
         return []
     return [
         document.say(

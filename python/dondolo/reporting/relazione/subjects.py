@@ -13,8 +13,9 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError, Problem
 from dondolo.exchange.results import Results
 from dondolo.reporting.relazione.terms import BENDING
+from dondolo.reporting.units import UNITS, Unit
 from dondolo.walls.chains import Chain
-from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.wall import MasonryWall, Wall
 
 # States that stand beside each other in a table
@@ -53,9 +54,13 @@ class Subject:
         return not isinstance(self.wall, (TwoBlockWall, TabulatedWall, Chain))
 
     @property
-    def per(self) -> str:
-        """What its forces are divided by: a metre of wall, or nothing of a chain, which is whole."""
-        return "" if isinstance(self.wall, Chain) else "/m"
+    def is_whole(self) -> bool:
+        """Whether masses and forces are those of a whole body, and not per metre of wall."""
+        return isinstance(self.wall, (Chain, Corner))
+
+    def unit(self, name: str) -> Unit:
+        """The unit in which a document has what is per metre of wall, or in all."""
+        return UNITS[name.removesuffix("/m") if self.is_whole else name]
 
     @property
     def has_ratios(self) -> bool:

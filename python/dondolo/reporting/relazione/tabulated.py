@@ -159,7 +159,7 @@ def table_steps(document: Document, one: Subject) -> list[Block]:
             " those of the code."
         )
         return [document.say(words, d0=symbol_of("d_0*"), a=symbol_of("a(d_C)"))]
-    moment = UNITS[f"N m{one.per}"]
+    moment = one.unit("N m/m")
     scale = one.wall.gravity / (
         one.check.value("mechanism", "SLV", "mass_ratio") * one.check.value("mechanism", "SLV", "knowledge_factor")
     )

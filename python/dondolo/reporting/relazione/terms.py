@@ -91,7 +91,7 @@ MEANINGS = {
     "opening_demand": "accelerazione spettrale per tale periodo, del suolo o alla quota z",
     "opening_ratio": "rapporto capacità/domanda dell'apertura dei giunti, un'ulteriore informazione",
     "alpha_0": "moltiplicatore di attivazione del meccanismo",
-    "bare_alpha_0": "lo stesso senza i cunei dei muri trasversali",
+    "bare_alpha_0": "lo stesso senza cunei dei muri trasversali, o senza ali",
     "mass": "massa partecipante",
     "mass_ratio": "frazione di massa partecipante",
     "a_0": "accelerazione spettrale di attivazione",
@@ -151,6 +151,8 @@ ITEMS = {
     "section": "tratto",
     "masonry": "muratura, corpo rigido unico",
     "wedge": "cuneo",
+    "corner": "spigolo",
+    "wing": "ala",
     "load": "carico",
     "mass": "massa trattenuta",
     "thrust": "spinta",
@@ -176,6 +178,7 @@ MECHANISMS = {
     "one_sided": "ribaltamento semplice verso l'esterno",
     "free_standing": "parete libera, oscillazione sui due lati",
     "two_block": "flessione verticale",
+    "corner": "ribaltamento del cantonale",
     "tabulated": "cinematismo tabellato",
     "chain": "catena di corpi rigidi",
 }
@@ -191,8 +194,8 @@ WARNINGS = {
     "height_below_thickness": "parete {wall}: altezza minore dello spessore, dati forse scambiati",
     "load_place_without_load": "parete {wall}: posizione di un carico sovrastante nullo",
     "overlap_above_thickness": "parete {wall}: ammorsamento maggiore dello spessore della parete ortogonale",
-    "mass_beside_size": "parete {wall}: la massa divisa per altezza e spessore è {density} kg/m³, limite usuale {limit}: unità"
-    " di misura da controllare",
+    "mass_beside_size": "parete {wall}: la massa divisa per altezza e spessore è {density} kg/m³, limite usuale {limit}:"
+    " unità di misura da controllare",
     "levels_above_usual": "livelli fino a {largest} di {im}, oltre il limite usuale {limit}: unità di misura da"
     " controllare",
     "record_without_motion": "accelerogramma {record}: accelerazione di picco nulla",

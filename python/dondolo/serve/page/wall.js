@@ -22,7 +22,7 @@ export function drawing(wall, blocks) {
   for (const block of blocks || wall.rest) out.push(`<polygon class="body" points="${shape(block)}"/>`);
   if (!blocks) for (const [x, y] of wall.hinges) out.push(`<circle class="hinge" cx="${X(x)}" cy="${Y(y)}" r="3.4"/>`);
   const arrow = (xa, ya, xb, yb) => { const a = Math.atan2(yb - ya, xb - xa), p = (d) => `${(xb - 8 * Math.cos(a + d)).toFixed(1)},${(yb - 8 * Math.sin(a + d)).toFixed(1)}`; return `<line class="force" x1="${xa}" y1="${ya}" x2="${xb}" y2="${yb}"/><polygon class="force-head" points="${xb},${yb} ${p(0.42)} ${p(-0.42)}"/>`; };
-  const kn = (force) => `${num(force / 1e3, force < 1e4 ? 1 : 0)} kN/m`;
+  const kn = (force) => `${num(force / 1e3, force < 1e4 ? 1 : 0)} ${wall.kind === "corner" ? "kN" : "kN/m"}`;
   for (const [x, y, force] of wall.loads) if (force > 0) out.push(arrow(X(x), Y(y) - 26, X(x), Y(y)), `<text class="small halo" x="${X(wall.thickness) + 6}" y="${Y(y) - 12}">${kn(force)}</text>`);
   for (const [x, y, force] of wall.thrusts) if (force > 0) out.push(arrow(X(x) - 34, Y(y), X(x), Y(y)), `<text class="small halo" x="${X(x) - 38}" y="${Y(y) + 4}" text-anchor="end">${kn(force)}</text>`);
   if (wall.overburden[0] > 0) { const x = X(wall.thickness / 2 + wall.overburden[1]); out.push(arrow(x, Y(h) - 26, x, Y(h)), `<text class="small halo" x="${x + 8}" y="${Y(h) - 14}">${kn(wall.overburden[0])}</text>`); }

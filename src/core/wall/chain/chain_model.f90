@@ -115,6 +115,7 @@ contains
       if (.not. input%has('joint_table')) call problems%note('joints: must be given with mechanism = ''chain''', not_given, &
          & 'joints')
       if (problems%count > 0) return
+      self%is_whole = .true.
       self%chain%gravity = gravity
       self%chain%driver = 1
       if (input%has('driver')) self%chain%driver = nint(input%number('driver'))

@@ -19,7 +19,7 @@ module dondolo_case_uncertainty_group
    public :: uncertainty_properties
 
    !> Variables of the group; behind the first two properties of walls, by their names
-   type(property_type), target, protected :: uncertainty_properties(18) = [ &
+   type(property_type), target, protected :: uncertainty_properties(19) = [ &
       & property_type('variants', is_integer, default=200.0_wp, smallest=8.0_wp, largest=10000.0_wp, &
       &   meaning='walls of the sample; of k properties at least 2 + 6 k + k (k - 1): 8 of one, 38 of four'), &
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
@@ -38,6 +38,8 @@ module dondolo_case_uncertainty_group
       & property_type('thickness', is_text, optional=.true., example='normal(0.25, 0.01)', meaning='its distribution, m'), &
       & property_type('wedge_angle', is_text, optional=.true., example='uniform(15.0, 30.0)', &
       &   meaning='distribution of the one angle of all wedges, degrees'), &
+      & property_type('wing_angle', is_text, optional=.true., example='uniform(10.0, 30.0)', &
+      &   meaning='distribution of the angle of the cracks of a corner, degrees'), &
       & property_type('overburden', is_text, optional=.true., example='uniform(4.0e3, 8.0e3)', &
       &   meaning='its distribution, N/m'), &
       & property_type('eccentricity', is_text, optional=.true., example='uniform(-0.05, 0.05)', &
