@@ -194,8 +194,8 @@ WARNINGS = {
     "height_below_thickness": "parete {wall}: altezza minore dello spessore, dati forse scambiati",
     "load_place_without_load": "parete {wall}: posizione di un carico sovrastante nullo",
     "overlap_above_thickness": "parete {wall}: ammorsamento maggiore dello spessore della parete ortogonale",
-    "mass_beside_size": "parete {wall}: la massa divisa per altezza e spessore è {density} kg/m³, limite usuale {limit}:"
-    " unità di misura da controllare",
+    "mass_beside_size": "parete {wall}: la massa divisa per altezza e spessore è {density} kg/m³, limite usuale"
+    " {limit}: unità di misura da controllare",
     "levels_above_usual": "livelli fino a {largest} di {im}, oltre il limite usuale {limit}: unità di misura da"
     " controllare",
     "record_without_motion": "accelerogramma {record}: accelerazione di picco nulla",
