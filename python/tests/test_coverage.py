@@ -1,6 +1,7 @@
 """Coverage of confidence intervals, by the experiment of docs/coverage.py with a small population."""
 
 import importlib.util
+import re
 import sys
 
 import pytest
@@ -53,3 +54,17 @@ def test_the_page_has_the_experiment(experiment):
     covered = {tuple(row[:3]) for row in rows if row[1] in ("as_recorded", "both")}
     # Two walls, one of them with two polarities
     assert len(covered) == 3 * len(experiment.SIZES)
+
+
+def test_the_coverage_that_is_printed_is_measured(root):
+    """Report, pages and docstring have the numbers of the study of exactly lognormal capacities."""
+    page = (root / "docs/studies/coverage.md").read_text(encoding="utf-8")
+    found = re.findall(r"(?m)^\| (\d+), from [^|]+ \| (\d+) \| [\d.]+ \| ([\d.]+) \| ([\d.]+) \|$", page)
+    assert [row[:2] for row in found] == [(n, size) for n in ("12", "20") for size in ("22", "44", "100")]
+    exact = ", ".join(row[2] for row in found[3:5]) + f" and {found[5][2]} %"
+    rounded = "{}, {} and {} %".format(*(round(float(row[2])) for row in found[3:]))
+    text = (root / "docs/uncertainty.md").read_text(encoding="utf-8")
+    assert exact in " ".join(text.split())
+    template = root / "python/dondolo/reporting/templates/wall_uncertainty.html.j2"
+    for printed in (dd.Fragility.parameter_interval.__doc__, template.read_text(encoding="utf-8")):
+        assert rounded in " ".join(printed.split())

@@ -13,7 +13,7 @@ module dondolo_records_column_roles
    use dondolo_records_column_layout, only : a_time, an_acceleration, another, layout_type, raise_unclear
    use dondolo_records_column_titles, only : is_acceleration, is_other_quantity, is_seconds, is_time, says_nothing
    use dondolo_records_column_top, only : top_type
-   use dondolo_records_equal_steps, only : check_equal_steps
+   use dondolo_records_equal_steps, only : check_equal_steps, step_type
    use dondolo_records_format, only : given_type, raise_at
    implicit none
    private
@@ -164,7 +164,8 @@ contains
 
       integer :: first(most_cells), last(most_cells), i, k, rows, found
       integer, allocatable :: from(:), to(:)
-      character(len=:), allocatable :: problem, note
+      character(len=:), allocatable :: problem
+      type(step_type) :: step
       real(wp) :: known
 
       k = roles%time
@@ -194,9 +195,11 @@ contains
          end do
          known = top%statements%dt
          if (allocated(given%dt)) known = given%dt
-         call check_equal_steps(text, table%begin, times, from, to, roles%dt, roles%doubt, error, known, note)
-         if (len(roles%note) > 0 .and. len(note) > 0) roles%note = roles%note//'; '
-         roles%note = roles%note//note
+         call check_equal_steps(text, table%begin, times, from, to, step, error, known)
+         roles%dt = step%dt
+         roles%doubt = step%doubt
+         if (len(roles%note) > 0 .and. len(step%note) > 0) roles%note = roles%note//'; '
+         roles%note = roles%note//step%note
          if (roles%is_told) then
             if (.not. allocated(error) .and. roles%dt >= longest_titled_step) call raise_at(error, text, table%begin, 'column '// &
                & to_text(k)//' increases by '//brief(roles%dt)//': must be times in s')

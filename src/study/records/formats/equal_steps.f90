@@ -20,7 +20,17 @@ module dondolo_records_equal_steps
    implicit none
    private
 
-   public :: check_equal_steps
+   public :: check_equal_steps, step_type
+
+   !> The time step of printed times
+   type :: step_type
+      !> The shortest decimal within the rounding of the times, or the known one [s]
+      real(wp) :: dt = 0.0_wp
+      !> By how much the rounding of the times may have moved it [s]
+      real(wp) :: doubt = 0.0_wp
+      !> That times are coarser than the known step, which was taken; empty otherwise
+      character(len=:), allocatable :: note
+   end type step_type
 
    !> Part of a step by which times may be off beyond their rounding
    real(wp), parameter :: slack = 0.01_wp
@@ -41,7 +51,7 @@ module dondolo_records_equal_steps
 contains
 
    !> Check the times of a file and find the time step
-   subroutine check_equal_steps(text, begin, time, first, last, dt, doubt, error, known, note)
+   subroutine check_equal_steps(text, begin, time, first, last, step, error, known)
       type(text_file_type), intent(in) :: text
       !> Line of the first time; the others stand in the lines after it
       integer, intent(in) :: begin
@@ -51,24 +61,18 @@ contains
       integer, intent(in) :: first(:)
       !> Position of the last character of each time
       integer, intent(in) :: last(:)
-      !> Time step: the shortest decimal within the rounding of the times [s]
-      real(wp), intent(out) :: dt
-      !> By how much the rounding of the times may have moved it [s]
-      real(wp), intent(out) :: doubt
+      !> Time step
+      type(step_type), intent(out) :: step
       !> Times decrease or are not equally spaced
       type(error_type), allocatable, intent(out) :: error
       !> Time step that is given, or stated elsewhere in the file; not positive: none [s]
       real(wp), intent(in), optional :: known
-      !> That times are coarser than the known step, which was taken; empty otherwise
-      character(len=:), allocatable, intent(out), optional :: note
 
       character(len=:), allocatable :: hint
       integer :: i, n, odd, decimals, digits
       real(wp) :: rounding, rounding_of_last, allowed
 
-      if (present(note)) note = ''
-      dt = 0.0_wp
-      doubt = 0.0_wp
+      step%note = ''
       n = size(time)
       if (n < 2) then
          call raise_at(error, text, begin, '1 sample: a record needs at least two')
@@ -80,38 +84,39 @@ contains
             & ': times must increase')
          return
       end do
-      dt = (time(n) - time(1))/real(n - 1, wp)
-      if (.not. dt > 0.0_wp) then
+      step%dt = (time(n) - time(1))/real(n - 1, wp)
+      if (.not. step%dt > 0.0_wp) then
          call raise_at(error, text, begin + 1, 'all times are '//to_text(time(1))//': must increase')
          return
       end if
       call print_of_times(text, first, last, decimals, digits)
-      rounding_of_last = rounding_of(time(n), dt, decimals, digits)
+      rounding_of_last = rounding_of(time(n), step%dt, decimals, digits)
       ! Most times are within the rounding of their last decimal, which is quickly seen
-      allowed = min(10.0_wp**(-decimals), resolved*dt) + slack*dt
+      allowed = min(10.0_wp**(-decimals), resolved*step%dt) + slack*step%dt
       do i = 2, n
-         if (abs(time(i) - time(i - 1) - dt) <= allowed .and. &
-            & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= allowed) cycle
-         rounding = rounding_of(time(i), dt, decimals, digits)
-         if (abs(time(i) - time(i - 1) - dt) <= rounding + slack*dt .and. &
-            & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= max(rounding, rounding_of_last) + slack*dt) cycle
+         if (abs(time(i) - time(i - 1) - step%dt) <= allowed .and. &
+            & abs(time(i) - time(1) - real(i - 1, wp)*step%dt) <= allowed) cycle
+         rounding = rounding_of(time(i), step%dt, decimals, digits)
+         if (abs(time(i) - time(i - 1) - step%dt) <= rounding + slack*step%dt .and. &
+            & abs(time(i) - time(1) - real(i - 1, wp)*step%dt) <= max(rounding, rounding_of_last) + slack*step%dt) cycle
          if (present(known)) then
             if (fits(time, 10.0_wp**(-decimals), known)) then
-               dt = known
-               if (present(note)) note = 'times are printed to '//brief(10.0_wp**(-decimals))//' s, coarser than the step of '// &
-                  & brief(dt)//' s, which fits all of them'
+               step%dt = known
+               step%note = 'times are printed to '//brief(10.0_wp**(-decimals))//' s, coarser than the step of '// &
+                  & brief(step%dt)//' s, which fits all of them'
                return
             end if
          end if
          ! The step that differs most is where a sample is missing or doubled
-         odd = maxloc(abs(time(2:) - time(:n - 1) - dt), dim=1) + 1
+         odd = maxloc(abs(time(2:) - time(:n - 1) - step%dt), dim=1) + 1
          hint = ''
-         if (10.0_wp**(-decimals) > resolved*dt) hint = '; times with so few decimals are read with a dt_s, or dt, that fits them'
+         if (10.0_wp**(-decimals) > resolved*step%dt) hint = '; times with so few decimals are read with a dt_s, or dt, that '// &
+            & 'fits them'
          call raise_at(error, text, begin + odd - 1, 'time '//to_text(time(odd))//' after '//to_text(time(odd - 1))// &
-            & ': times must be equally spaced, the mean step is '//brief(dt)//hint)
+            & ': times must be equally spaced, the mean step is '//brief(step%dt)//hint)
          return
       end do
-      call find_step(time, decimals, digits, dt, doubt)
+      call find_step(time, decimals, digits, step%dt, step%doubt)
    end subroutine check_equal_steps
 
    !> Does a step fit all times, which are rounded to a unit?

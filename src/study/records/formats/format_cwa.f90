@@ -8,7 +8,7 @@ module dondolo_records_format_cwa
    use dondolo_base_text, only : first_word, to_text
    use dondolo_files_text_file, only : text_file_type
    use dondolo_record_metadata, only : metadata_type
-   use dondolo_records_equal_steps, only : check_equal_steps
+   use dondolo_records_equal_steps, only : check_equal_steps, step_type
    use dondolo_records_header_fields, only : field_type, header_type
    use dondolo_records_labels, only : labels_type, read_labels
    use dondolo_records_format, only : block_type, most_extra, name_listed, note_extra, raise_at, read_fixed, samples_type, &
@@ -54,9 +54,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(header_type) :: header
-      character(len=:), allocatable :: units, note
+      character(len=:), allocatable :: units
+      type(step_type) :: step
       real(wp), allocatable :: values(:)
-      real(wp) :: rate, dt, doubt
+      real(wp) :: rate
       integer :: begin, rows, columns, i
 
       begin = header_lines(text) + 1
@@ -75,13 +76,13 @@ contains
       if (.not. allocated(error)) call check_rows(text, header%labels, rate, rows, samples%metadata, error)
       if (allocated(error)) return
       call check_equal_steps(text, begin, values(1:columns*rows:columns), &
-         & text%first(begin:begin + rows - 1), text%first(begin:begin + rows - 1) + width - 1, dt, &
-         & doubt, error, 1.0_wp/rate, note)
+         & text%first(begin:begin + rows - 1), text%first(begin:begin + rows - 1) + width - 1, step, &
+         & error, 1.0_wp/rate)
       if (allocated(error)) return
-      call samples%metadata%append('reading', note)
-      if (abs(dt*rate - 1.0_wp) > step_tolerance) then
+      call samples%metadata%append('reading', step%note)
+      if (abs(step%dt*rate - 1.0_wp) > step_tolerance) then
          call raise_at(error, text, header%labels%line_of('#SampleRate(Hz)'), 'SampleRate(Hz) = '//to_text(rate)// &
-            & ': the step of the times is '//to_text(dt))
+            & ': the step of the times is '//to_text(step%dt))
          return
       end if
       units = header%labels%value_of('#AmplitudeUnit')

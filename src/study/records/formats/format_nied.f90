@@ -10,7 +10,7 @@ module dondolo_records_format_nied
    use dondolo_records_column_cells, only : find_cells, most_cells, unquoted
    use dondolo_records_column_titles, only : find_units, is_other_quantity
    use dondolo_records_dates, only : day_number, find_moment
-   use dondolo_records_equal_steps, only : check_equal_steps
+   use dondolo_records_equal_steps, only : check_equal_steps, step_type
    use dondolo_records_header_text, only : leading_number
    use dondolo_records_format_knet, only : knet_fields
    use dondolo_records_header_fields, only : header_type
@@ -152,12 +152,13 @@ contains
       character(len=:), allocatable, intent(out) :: note
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: dt, doubt
+      type(step_type) :: step
 
-      call check_equal_steps(text, begin, time - time(1), from, to, dt, doubt, error, 1.0_wp/rate, note)
+      call check_equal_steps(text, begin, time - time(1), from, to, step, error, 1.0_wp/rate)
+      note = step%note
       if (allocated(error)) return
-      if (abs(dt*rate - 1.0_wp) > step_tolerance) call raise_at(error, text, begin, 'the step of the times is '// &
-         & to_text(dt)//' s: Sampling Freq(Hz) = '//to_text(rate))
+      if (abs(step%dt*rate - 1.0_wp) > step_tolerance) call raise_at(error, text, begin, 'the step of the times is '// &
+         & to_text(step%dt)//' s: Sampling Freq(Hz) = '//to_text(rate))
    end subroutine check_times
 
    !> Read a time: seconds, or `2031/03/04 05:06:00.02`
