@@ -439,7 +439,9 @@ def test_the_weights_alone_at_the_control_point_of_the_check(one_hazard):
 
 def test_what_is_not_written_is_seen_and_counted(both, written, folder):
     left = dd.calculation_report(both, folder / "left.html")
-    assert set(left) == set(project.TEXTS) | (set(project.WORDS) - {"revision"}) | set(project.NUMBERS)
+    # Why the hinges of a chain are the weakest is asked of chains alone.
+    asked = set(project.TEXTS) - {"chain_hinges"}
+    assert set(left) == asked | (set(project.WORDS) - {"revision"}) | set(project.NUMBERS)
     page = written["en", ".html"].read_text()
     assert page.count("<mark>[TO BE COMPLETED: ") == len(left)
     data = folder / "project.toml"
@@ -451,7 +453,7 @@ def test_what_is_not_written_is_seen_and_counted(both, written, folder):
     assert dd.calculation_report(both, folder / "left.html", project=data) == ()
     text = of_page(folder / "left.html")
     assert "TO BE COMPLETED" not in text
-    assert [name for name in project.TEXTS if f"first {name}" not in text] == []
+    assert [name for name in asked if f"first {name}" not in text] == []
     assert "42 (value assumed by the designer)" in " ".join(text.split())
     assert "1764" in text.replace("\N{NARROW NO-BREAK SPACE}", "")
 

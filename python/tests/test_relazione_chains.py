@@ -36,7 +36,9 @@ def pages(strip, tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
     found = {}
     for lang in ("en", "it"):
-        dd.calculation_report(strip, folder / f"{lang}.html", lang=lang)
+        left = dd.calculation_report(strip, folder / f"{lang}.html", lang=lang)
+        assert "chain_hinges" in left
+        assert "inward_rotation" not in left
         found[lang] = of_page(folder / f"{lang}.html")
     return found
 
