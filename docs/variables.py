@@ -34,7 +34,8 @@ Every variable of a namelist file, group by group. `dondolo --template` prints t
 The names of `&wall` and `&building` are also the columns of a population and the arguments of the walls and of
 `dd.Building` in Python. Values of a list are in numbered columns, `period1`, `period2` ... In Python they are parts:
 `tie_height` and `tie_area` of all ties are `height` and `area` of each `dd.Tie`. The same holds for `dd.Section`,
-`dd.Load`, `dd.InertialMass` (`inertia_mass`), `dd.Thrust`, `dd.Spring`, `dd.DistributedSpring` and `dd.Wedge`;
+`dd.Load`, `dd.InertialMass` (`inertia_mass`), `dd.Thrust`, `dd.Spring`, `dd.DistributedSpring`, `dd.Wedge` and
+`dd.Opening`;
 `dd.Interlock` has the names that begin with `interlock`.
 
 A variable without a default has no value if left out. An empty `only for` means all mechanisms and tasks.

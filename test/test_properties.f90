@@ -61,7 +61,7 @@ contains
          associate (property => table(i))
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
-            call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
+            call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
                & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'rad/s', 'kg m/m', 'N m/m', '1/s2', 'year', 'deg']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
@@ -147,6 +147,7 @@ contains
       call hint('compressive_strength', 3200.0_wp, 'is it in kPa?')
       call hint('load', 8.5_wp, 'is it in kN/m?')
       call hint('thrust', 1.2_wp, 'is it in kN/m?')
+      call hint('load_total', 6.0_wp, 'is it in kN?')
       call hint('spring', 45.0_wp, 'is it in kN/m2?')
       call hint('distributed_spring', 25.0_wp, 'is it in kN/m3?')
       call hint('mass', 1.4_wp, 'is it in t/m?')
@@ -486,31 +487,23 @@ contains
       type(wall_input_type), intent(inout) :: input
       character(len=*), intent(in) :: what
 
+      character(len=*), parameter :: names(5) = [character(len=13) :: 'load_total', 'load_depth', 'load_height', 'thrust_total', &
+         & 'thrust_height']
+      integer :: i
+
       if (.not. input%has('wing_angle')) call input%set('wing_angle', 20.0_wp)
-      if (.not. any(what == [character(len=20) :: 'hinge_depth', 'compressive_strength'])) call input%set('hinge_depth', 0.02_wp)
-      if (what == 'stress_block') call input%clear('hinge_depth')
-      if (what == 'hinge_level') call input%set('hinge_level', [0.4_wp])
-      if (index(what, 'load_') == 1) then
-         call give('load_total')
-         call give('load_depth')
-         call give('load_height')
-         if (what == 'load_lifted') call give('load_pushed')
-         if (what == 'load_pushed') call give('load_lifted')
-         if (.not. (input%has('load_lifted') .or. input%has('load_inertia'))) call input%set('load_inertia', 'both')
-      else if (index(what, 'thrust_') == 1) then
-         call give('thrust_total')
-         call give('thrust_height')
+      if (.not. any(what == [character(len=20) :: 'hinge_depth', 'compressive_strength', 'stress_block'])) then
+         call input%set('hinge_depth', 0.02_wp)
       end if
-
-   contains
-
-      !> Give a list that is not given
-      subroutine give(name)
-         character(len=*), intent(in) :: name
-
-         if (.not. input%has(name)) call input%set(name, [0.4_wp, 0.4_wp])
-      end subroutine give
-
+      if (what == 'hinge_level') call input%set('hinge_level', [0.4_wp])
+      do i = 1, size(names)
+         if (names(i)(:index(names(i), '_')) /= what(:index(what, '_')) .or. input%has(trim(names(i)))) cycle
+         call input%set(trim(names(i)), [0.4_wp, 0.4_wp])
+      end do
+      if (index(what, 'load_') /= 1) return
+      if (what == 'load_lifted') call input%set('load_pushed', [0.4_wp, 0.4_wp])
+      if (what == 'load_pushed') call input%set('load_lifted', [0.4_wp, 0.4_wp])
+      if (.not. (input%has('load_lifted') .or. input%has('load_inertia'))) call input%set('load_inertia', 'both')
    end subroutine complete_corner
 
    !> Give the terms of a tabulated wall, and what belongs to them
@@ -591,6 +584,20 @@ contains
          if (what /= 'wedge_bottom') call input%set('wedge_bottom', [0.0_wp, 0.1_wp])
          if (what /= 'wedge_top') call input%set('wedge_top', [2.9_wp, 3.0_wp])
          if (what /= 'wedge_length') call input%set('wedge_length', [4.0_wp, 0.5_wp])
+      case ('elevation_x', 'elevation_z', 'opening_x', 'opening_z', 'opening_width', 'opening_height')
+         call input%set('facade_length', 2.0_wp)
+         if (what(:4) == 'elev') then
+            ! A triangle
+            call input%set('elevation_x', [0.0_wp, 2.0_wp, 1.0_wp])
+            call input%set('elevation_z', [0.0_wp, 0.0_wp, 3.0_wp])
+         else
+            call input%set('elevation_x', [0.0_wp, 2.0_wp, 2.0_wp, 0.0_wp])
+            call input%set('elevation_z', [0.0_wp, 0.0_wp, 3.0_wp, 3.0_wp])
+            if (what /= 'opening_x') call input%set('opening_x', [0.1_wp, 1.0_wp])
+            if (what /= 'opening_z') call input%set('opening_z', [0.1_wp, 1.0_wp])
+            if (what /= 'opening_width') call input%set('opening_width', [0.05_wp, 0.05_wp])
+            if (what /= 'opening_height') call input%set('opening_height', [0.05_wp, 0.05_wp])
+         end if
       case ('load_lifted')
          call input%set('load_pushed', [0.5_wp, 0.5_wp])
       case ('load_pushed')

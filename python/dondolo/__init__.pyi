@@ -70,6 +70,7 @@ from dondolo.walls.parts import DistributedSpring as DistributedSpring
 from dondolo.walls.parts import InertialMass as InertialMass
 from dondolo.walls.parts import Interlock as Interlock
 from dondolo.walls.parts import Load as Load
+from dondolo.walls.parts import Opening as Opening
 from dondolo.walls.parts import Section as Section
 from dondolo.walls.parts import Spring as Spring
 from dondolo.walls.parts import Thrust as Thrust

@@ -50,7 +50,7 @@ def test_words_of_sources_are_known(root):
     """What sources are said to be of: mechanisms, models of restitution, measures, engines, and words that are used."""
     text = (root / "src/study/files/references.f90").read_text()
     words = set(" ".join(re.findall(r"reference_type\('\w+', '\w+', '([^']*)'", text)).split())
-    walls = {"one_sided", "free_standing", "two_block"}
+    walls = {"one_sided", "free_standing", "two_block", "corner"}
     models = {f"{wall}/{model}" for wall in walls for model in ("default", "sorrentino", "impulse", "constant")}
     measures = {"arias", "arias-trapz", "cav", "cav-trapz", "d5-75", "d5-95", "hi", "sa", "saavg", "pga/a0", "p*pgv/a0"}
     used = (root / "src/study/case/input/cited.f90").read_text() + (

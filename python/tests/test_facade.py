@@ -81,7 +81,7 @@ def test_leaves():
     [
         (
             lambda: dd.Population.of_facade(dd.FreeStandingWall(3.0, 0.5)),
-            "must be a OneSidedWall, not FreeStandingWall",
+            "must be a OneSidedWall or a Corner, not FreeStandingWall",
         ),
         (lambda: dd.Population.of_facade(dd.OneSidedWall(3.0, 0.5)), "only with sections"),
         (lambda: dd.Population.of_facade(whole(), hinge_level="floors"), "must be heights or 'storeys'"),

@@ -71,7 +71,7 @@ def test_walls(kind):
         assert description.startswith(sentence(row)), (description, sentence(row))
         kinds = (
             "sequence of float"
-            if row.name in ("hinge_range", "weight", "displacement", *TABLES)
+            if row.name in ("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", *TABLES)
             else "{"
             if row.choices
             else "str"
@@ -281,7 +281,7 @@ def test_what_is_not_given(records):
 TOGETHER = re.compile(
     r"only with|only for|must be given|give either|belong together|must be above|instead of"
     r"|not with latitude and longitude|must be less than the height of the wall"
-    r"|the sum of section_height|that of the lowest section"
+    r"|the sum of section_height|that of the lowest section|that of the highest corner"
     r"|a property must have a distribution"
 )
 

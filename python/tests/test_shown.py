@@ -115,7 +115,7 @@ def test_every_result_is_a_table(things):
     """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
     plain = {
         "Body", "Boundary", "Certified", "Choice", "Curve", "DistributedSpring", "GivenMass", "Group",
-        "Guide", "InertialMass", "Interlock", "Load", "Lognormal", "Normal", "Part", "Pin",
+        "Guide", "InertialMass", "Interlock", "Load", "Lognormal", "Normal", "Opening", "Part", "Pin",
         "PointLoad", "PointMass", "PointThrust", "Problem", "Regression", "RotD", "Section", "Sector",
         "Solver", "Spring", "State", "Terms", "Thrust", "Tie", "Triangular", "Uniform", "Wall", "Wedge",
         "Window", "Work",

@@ -188,8 +188,11 @@ def test_loads_behind_the_wall():
 @pytest.mark.parametrize(
     ("more", "match"),
     [
-        ({"facade_length": None}, "facade_length: must be given with wedges of transverse walls, and only with them"),
-        ({"wedges": []}, "facade_length: must be given with wedges of transverse walls, and only with them"),
+        (
+            {"facade_length": None},
+            "facade_length: must be given with wedges of transverse walls or an elevation, and only",
+        ),
+        ({"wedges": []}, "facade_length: must be given with wedges of transverse walls or an elevation, and only"),
         ({"facade_length": 0.9}, r"0\.9 m in all, must be less than facade_length = 0\.9"),
         ({"wedges": [replace(WEDGE, top=7.5)]}, r"wedges\[0\]\.top = 7\.5: must be at most 7 m, the height"),
         (

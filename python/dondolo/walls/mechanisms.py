@@ -15,7 +15,18 @@ from dondolo._base.wording import say
 from dondolo._fortran.walls import WallData, bending_period
 from dondolo._storage.saved import part_of_results
 from dondolo.walls.chains import Chain
-from dondolo.walls.parts import DistributedSpring, InertialMass, Interlock, Load, Section, Spring, Thrust, Tie, Wedge
+from dondolo.walls.parts import (
+    DistributedSpring,
+    InertialMass,
+    Interlock,
+    Load,
+    Opening,
+    Section,
+    Spring,
+    Thrust,
+    Tie,
+    Wedge,
+)
 from dondolo.walls.wall import DEFAULT, MasonryWall, Terms, Wall, upload
 
 # What the package exports of the walls: a new mechanism is added here alone
@@ -123,9 +134,15 @@ class OneSidedWall(BlockWall):
     interlock : Interlock, optional
         Stones that overlap those of transverse walls, whose friction holds the wall.
     facade_length : float, optional
-        Length of the facade that the wedges belong to: their mass is divided by it [m].
+        Length of the facade: the masses of its wedges, and of an elevation, are divided by it [m].
     wedges : sequence of Wedge, optional
         Wedges of transverse walls that turn with the wall. 'default' is then 'impulse', the only model of restitution.
+    elevation_x : sequence of float, optional
+        Places along the facade of the corners of its elevation, around it, instead of height [m].
+    elevation_z : sequence of float, optional
+        Heights of these corners above the base [m].
+    openings : sequence of Opening, optional
+        Doors and windows in this elevation.
     masonry_compression : float, optional
         Mean strength of the masonry in compression at plates of ties; compressive_strength if not given [Pa].
     masonry_shear : float, optional
@@ -175,6 +192,9 @@ class OneSidedWall(BlockWall):
     interlock: Interlock | None = None
     facade_length: float | None = None
     wedges: Sequence[Wedge] = ()
+    elevation_x: Sequence[float] | None = None
+    elevation_z: Sequence[float] | None = None
+    openings: Sequence[Opening] = ()
     masonry_compression: float | None = None
     masonry_shear: float | None = None
     masonry_tension: float | None = None

@@ -337,10 +337,37 @@ class Wedge(Part):
     length: float
 
 
+@_described
+@part_of_results
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Opening(Part):
+    """A door or a window in the elevation of a facade (docs/mechanisms.md).
+
+    Examples
+    --------
+    A facade 6 m long and 7 m high with a door:
+
+    >>> import dondolo as dd
+    >>> door = dd.Opening(x=2.5, z=0.0, width=1.0, height=2.2)
+    >>> corners = {"elevation_x": [0.0, 6.0, 6.0, 0.0], "elevation_z": [0.0, 0.0, 7.0, 7.0]}
+    >>> facade = dd.OneSidedWall(thickness=0.5, facade_length=6.0, openings=[door], **corners)
+    >>> facade.height
+    7.0
+    """
+
+    word: ClassVar[str] = "opening"
+
+    x: float
+    z: float
+    width: float
+    height: float
+
+
 # The kinds, by the names that walls have for them
 KINDS: dict[str, type[Part]] = {
     "sections": Section,
     "wedges": Wedge,
+    "openings": Opening,
     "loads": Load,
     "inertial_masses": InertialMass,
     "thrusts": Thrust,

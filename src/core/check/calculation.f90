@@ -184,7 +184,14 @@ contains
       density = (wall%body%mass - sum(wall%wedges%body%mass))/whole%mass
       bottom = 0.0_wp
       ! A body whose centroid is given has no sections to sum.
-      if (size(wall%wedges) > 0 .or. abs(whole%height - wall%body%height) + abs(whole%depth - wall%body%depth) &
+      if (allocated(wall%facade)) then
+         associate (facade => wall%facade)
+            item = weighed('section 1', gravity*facade%mass, facade%depth, facade%height, wall%actions%hinge)
+         end associate
+         item%second = none
+         items = [items, item]
+         call list_wedges(items, wall, gravity)
+      else if (size(wall%wedges) > 0 .or. abs(whole%height - wall%body%height) + abs(whole%depth - wall%body%depth) &
          & <= same*whole%height) then
          do i = 1, size(wall%sections)
             part = body_of_sections(wall%sections(i:i), density)
@@ -193,13 +200,7 @@ contains
             items = [items, item]
             bottom = bottom + wall%sections(i)%height
          end do
-         do i = 1, size(wall%wedges)
-            associate (wedge => wall%wedges(i)%body)
-               item = weighed(wedge_word//' '//to_text(i), gravity*wedge%mass, wedge%depth, wedge%height, wall%actions%hinge)
-            end associate
-            item%second = none
-            items = [items, item]
-         end do
+         call list_wedges(items, wall, gravity)
       else
          item = weighed('section 1', gravity*wall%body%mass, wall%body%depth, wall%body%height, wall%actions%hinge)
          item%second = none
@@ -207,6 +208,25 @@ contains
       end if
       items = [items, as_one_point(wall, gravity)]
    end subroutine list_masonry
+
+   !> List the wedges of transverse walls
+   pure subroutine list_wedges(items, wall, gravity)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(wall_body_type), intent(in) :: wall
+      !> [m/s2]
+      real(wp), intent(in) :: gravity
+
+      type(item_type) :: item
+      integer :: i
+
+      do i = 1, size(wall%wedges)
+         associate (wedge => wall%wedges(i)%body)
+            item = weighed(wedge_word//' '//to_text(i), gravity*wedge%mass, wedge%depth, wedge%height, wall%actions%hinge)
+         end associate
+         item%second = none
+         items = [items, item]
+      end do
+   end subroutine list_wedges
 
    !> List the square of a corner and its wings, and the masonry as one point
    subroutine list_corner(items, wall, gravity)

@@ -118,6 +118,7 @@ contains
       heights = input%list('section_height')
       if (size(heights) == 0) then
          call input%set('height', input%number('height') - level)
+         call cut_elevation(input, level)
          return
       end if
       below = 0.0_wp
@@ -150,6 +151,21 @@ contains
       call choose(input, 'section_thickness', above)
       call choose(input, 'section_fill', above)
    end subroutine cut_sections
+
+   !> The elevation as a hinge has it: reading leaves out what is below
+   subroutine cut_elevation(input, level)
+      !> Input of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Height of the hinge [m]
+      real(wp), intent(in) :: level
+
+      if (.not. input%has('elevation_z')) return
+      call input%set('elevation_z', input%list('elevation_z') - level)
+      if (input%has('opening_z')) call input%set('opening_z', of_each(input%list('opening_z') - level, &
+         & size(input%list('opening_x'))))
+      ! It follows from the highest corner
+      call input%clear('height')
+   end subroutine cut_elevation
 
    !> Keep the actions of a kind that act above a hinge: their heights are from the hinge, their depths from the outer face there
    subroutine keep_above(input, level, face, kind)

@@ -1,12 +1,12 @@
 !> Walls of two blocks: 'two_block'. Its name, its properties, and how it becomes a mechanism (dondolo_wall_two_block).
 module dondolo_wall_two_block_model
    use dondolo_base_kinds, only : wp
+   use dondolo_wall_block, only : block_type, new_block
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : blank, choices_length, is_list, is_text, most_choices, name_length, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : brief, rounded, to_text
    use dondolo_building_input, only : spans
-   use dondolo_wall_block, only : block_type, new_block
    use dondolo_wall_body, only : read_strip_body, wall_body_type
    use dondolo_wall_carried, only : describe_actions
    use dondolo_wall_elastic_branch, only : usual_damping

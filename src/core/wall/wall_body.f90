@@ -14,6 +14,7 @@ module dondolo_wall_body
    use dondolo_wall_lists, only : take
    use dondolo_wall_rigid_body, only : body_of_sections, faces_at, joined, rigid_body_type, same, section_type
    use dondolo_wall_ties, only : read_ties
+   use dondolo_wall_elevation, only : read_elevation, top_of_elevation
    use dondolo_wall_wedge, only : read_wedges, wedge_reach, wedge_type
    implicit none
    private
@@ -24,6 +25,8 @@ module dondolo_wall_body
    type :: wall_body_type
       !> Its storeys from the bottom; of a corner what its square base covers of the bisector, from the outer to the inner edge
       type(section_type), allocatable :: sections(:)
+      !> The facade without its wedges, of which the elevation is given; not allocated: it is that of the sections
+      type(rigid_body_type), allocatable :: facade
       !> The corner that it is; not allocated: it is none
       type(corner_type), allocatable :: corner
       !> Wedges of transverse walls that turn with it; not allocated: of a strip
@@ -51,6 +54,7 @@ contains
       thicknesses = input%list('section_thickness')
       if (size(heights) > 0) call follow('height', sum(heights), 'the sum of section_height')
       if (size(thicknesses) > 0) call follow('thickness', thicknesses(1), 'that of the lowest section')
+      if (top_of_elevation(input) > 0.0_wp) call follow('height', top_of_elevation(input), 'that of the highest corner')
       if (input%has('mass') .and. input%number('height')*input%number('thickness') > 0.0_wp) call follow('density', &
          & input%number('mass')/(input%number('height')*input%number('thickness')), 'that of the mass')
 
@@ -93,11 +97,13 @@ contains
       before = problems%count
       call read_sections(input, problems, wall%sections)
       call read_wedges(input, wall%sections, problems, wall%wedges)
+      call read_elevation(input, problems, wall%facade)
       call read_loads(input, gravity, problems, wall%actions%carried, 'load')
       call read_thrusts(input, wall%sections, problems, wall%actions%thrusts, 'thrust')
       call read_springs(input, problems, wall%actions%springs)
       if (problems%count > before) return
       wall%body = body_of_sections(wall%sections, input%number('density'))
+      if (allocated(wall%facade)) wall%body = wall%facade
       call read_mass(input, problems, wall%body)
       if (problems%count > before) return
       do i = 1, size(wall%wedges)

@@ -10,6 +10,7 @@ module dondolo_wall_properties
    use dondolo_building_input, only : building_rows
    use dondolo_wall_chain_model, only : chain_rows
    use dondolo_wall_corner, only : corner_name, corner_rows
+   use dondolo_wall_elevation, only : elevation_rows
    use dondolo_wall_free_wall, only : free_rows
    use dondolo_wall_one_block_model, only : one_block_action_rows, one_block_body_rows, one_block_names
    use dondolo_wall_restitution, only : restitution_models
@@ -83,7 +84,8 @@ module dondolo_wall_properties
    character(len=*), parameter :: rare_names(3) = [character(len=16) :: 'restitution_sd', 'restitution_seed', 'base_level']
 
    !> The rows of the wall itself, in the order in which a user thinks of them
-   type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, wedge_rows, corner_rows, hinge_rows, &
+   type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, wedge_rows, elevation_rows, &
+      & corner_rows, hinge_rows, &
       & one_block_action_rows, free_rows, two_block_hinge_rows, two_block_joint_rows, impact_rows, two_block_load_rows, &
       & tabulated_rows, chain_rows]
 

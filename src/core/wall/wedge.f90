@@ -24,7 +24,7 @@ module dondolo_wall_wedge
    type(property_type), parameter :: wedge_rows(*) = [ &
       & property_type('facade_length', unit='m', owners=one_sided, optional=.true., positive=.true., smallest=0.1_wp, &
       &   largest=1.0e3_wp, usual_least=0.5_wp, usual_most=100.0_wp, example='6.0', &
-      &   meaning='length of the facade that the wedges belong to: their mass is divided by it'), &
+      &   meaning='length of the facade: the masses of its wedges, and of an elevation, are divided by it'), &
       & property_type('wedge_thickness', is_list, unit='m', owners=one_sided, optional=.true., positive=.true., &
       &   smallest=1.0e-2_wp, largest=10.0_wp, usual_most=3.0_wp, example='0.45, 0.45', &
       &   not_with='leaves, mass, interlock_overlap', &
@@ -78,8 +78,9 @@ contains
       call take(input, problems, 'wedge_top', 'wedge_thickness', top)
       call take(input, problems, 'wedge_length', 'wedge_thickness', length)
       allocate (wedges(size(angle)))
-      if (input%has('facade_length') .neqv. size(wedges) > 0) call problems%note('facade_length: must be given with '// &
-         & 'wedges of transverse walls, and only with them', not_together, 'facade_length')
+      if (input%has('facade_length') .neqv. (size(wedges) > 0 .or. input%has('elevation_x'))) call problems%note( &
+         & 'facade_length: must be given with wedges of transverse walls or an elevation, and only with them', not_together, &
+         & 'facade_length')
       if (size(wedges) == 0 .or. problems%count > 0) return
       wedges%thickness = input%list('wedge_thickness')
       wedges%bottom = bottom

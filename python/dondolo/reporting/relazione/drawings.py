@@ -175,11 +175,14 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
             ax.annotate("", (x, wall.height), (x, 1.09 * wall.height), arrowprops=_ARROW)
             ax.annotate(f"N = {_kilo(document, item.force)}", (x, 1.05 * wall.height), (6, 0),
                         textcoords="offset points", fontsize=_WORDS)  # fmt: skip
-        if item.item == "masonry" or np.isnan(item.depth):
+        # Both wings of a corner stand behind each other
+        if item.item in ("masonry", "wing 2") or np.isnan(item.depth):
             continue
         word, _blank, count = item.item.rpartition(" ")
         letter = _LETTERS.get(word, "P")
         words = f"{letter}{count} = {_kilo(document, item.force)}"
+        if word == "wing":
+            words = f"{letter}1 = {letter}2 = {_kilo(document, item.force)}"
         x, z = right - item.depth, item.lever
         if isinstance(wall, TwoBlockWall):
             # The lever of what is on the upper block is no height

@@ -371,6 +371,12 @@ def modelling(document: Document) -> list[Block]:
             " the masonry. They act by their weight and their mass alone, without friction on the cracks."
         )
         blocks.append(document.say(words))
+    if any(getattr(wall, "elevation_x", None) for wall in walls):
+        words = _(
+            "The elevation of a facade is a polygon from which doors and windows are taken away. Its mass, its centroid"
+            " and its inertia are those of this figure above the hinge, per metre of the length of the facade."
+        )
+        blocks.append(document.say(words))
     if any(one.is_whole for one in document.subjects.several):
         words = _(
             "A corner overturns along the bisector of its two walls: its square base carries a wing of each wall, above"

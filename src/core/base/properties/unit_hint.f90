@@ -33,6 +33,7 @@ module dondolo_base_unit_hint
       & other_unit_type('Pa', 'MPa', 1.0e6_wp), &
       & other_unit_type('Pa', 'GPa', 1.0e9_wp), &
       & other_unit_type('N/m', 'kN/m', 1.0e3_wp), &
+      & other_unit_type('N', 'kN', 1.0e3_wp), &
       & other_unit_type('N/m2', 'kN/m2', 1.0e3_wp), &
       & other_unit_type('N/m2', 'N/mm2', 1.0e6_wp), &
       & other_unit_type('N/m3', 'kN/m3', 1.0e3_wp), &
