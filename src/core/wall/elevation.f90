@@ -81,6 +81,10 @@ contains
          & 'values per metre refer to', not_given, 'facade_length')
       if (size(x) == 0) call problems%note('elevation_x: must be given with elevation_z', not_given, 'elevation_x')
       if (size(z) == 0) call problems%note('elevation_z: must be given with elevation_x', not_given, 'elevation_z')
+      ! Doors shorten the base, and so what bears is not known from a length.
+      if (input%has('compressive_strength')) call problems%note('compressive_strength: not with elevation_x, for doors shorten '// &
+         & 'the masonry that is crushed; give hinge_depth, the weight over 2 x 0.85 f and the length of masonry at the base', &
+         & not_together, 'compressive_strength')
       if (problems%count > before) return
       if (size(x) /= size(z)) call problems%note('elevation_z: has '//to_text(size(z))//' values, must have '//to_text(size(x))// &
          & ' as elevation_x', wrong_length, 'elevation_z')

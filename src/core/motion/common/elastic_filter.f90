@@ -21,7 +21,7 @@ module dondolo_motion_elastic_filter
    type :: elastic_filter_type
       private
       !> Joints of the wall
-      type(elastic_joint_type) :: joint
+      type(elastic_joint_type), public :: joint
       !> From a sample to the next: of the state, and of the accelerations at both
       real(wp) :: by_state(2, 2), by_ground(2, 2)
       !> State at the first sample of each block, and at the last sample of the record

@@ -23,8 +23,7 @@ module dondolo_motion_lane_bending
 contains
 
    !> Closed motion, until the joints open or the record is over, which its interval tells
-   pure subroutine bend(joint, constants, filter, record, history, state, trace, start, without_jumps)
-      type(elastic_joint_type), intent(in) :: joint
+   pure subroutine bend(constants, filter, record, history, state, trace, start, without_jumps)
       !> Constants of the wall
       class(wall_constants_type), intent(in) :: constants
       !> The motion of the closed wall under the whole accelerogram
@@ -63,7 +62,7 @@ contains
          end if
          call history%count_step(constants, history%interval, record%dt)
          if (history%given_up) return
-         call take_part(joint, record, history, state, is_open, trace, start)
+         call take_part(filter%joint, record, history, state, is_open, trace, start)
          if (is_open) return
       end do
 

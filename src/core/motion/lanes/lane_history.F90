@@ -323,14 +323,14 @@ contains
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, set => batch%set, &
          & record => batch%records(batch%history(i)%record), joint => batch%mechanism%joint)
          if (associated(batch%trace)) then
-            call bend(joint, constants, batch%filter(history%record), record, history%history_type, history%bent, &
+            call bend(constants, batch%filter(history%record), record, history%history_type, history%bent, &
                & batch%trace, batch%start)
          else
-            call bend(joint, constants, batch%filter(history%record), record, history%history_type, history%bent)
+            call bend(constants, batch%filter(history%record), record, history%history_type, history%bent)
             if (.not. (history%given_up .or. history%peak >= joint%opening)) then
                ! It never opened. Jumps passed over its peak, which is where nothing else happened.
                history = lane_history_type(number=history%number, record=history%record, scale=history%scale, rest=history%rest)
-               call bend(joint, constants, batch%filter(history%record), record, history%history_type, history%bent, &
+               call bend(constants, batch%filter(history%record), record, history%history_type, history%bent, &
                   & without_jumps=.true.)
             end if
          end if
