@@ -184,7 +184,8 @@ contains
          kinematic%wedge_first = sum(items%first, mask=of_wedges)
       end associate
       associate (lifts => is_given(items%arm), holds => is_given(items%stabilising))
-         kinematic%carried = sum(items%force, mask=lifts .and. holds)
+         ! The forces at the hinges of a chain do not follow from the sums.
+         if (.not. allocated(kinematic%table)) kinematic%carried = sum(items%force, mask=lifts .and. holds)
          kinematic%thrust = sum(items%force, mask=is_given(items%overturning))
          kinematic%restraint = sum(items%force, mask=holds .and. .not. lifts)
       end associate

@@ -35,8 +35,7 @@ contains
                if (floors%down(i) > 0.0_wp) call put_hinge(hinges(i), floors%across(i), floors%down(i))
             end do
          end associate
-      else if (kinematic%carried > 0.0_wp .and. .not. allocated(kinematic%table)) then
-         ! Of a chain the forces at the hinges do not follow from the sums.
+      else if (kinematic%carried > 0.0_wp) then
          call put_base(trim(hinges(1)))
       end if
 
