@@ -6,9 +6,9 @@
 !> 2**127 k numbers after stream 0. Seeding: all six words of the state of stream 0 are the seed (the seed 12345 is
 !> the published default). All arithmetic is on integers that fit 64 bits, so nothing depends on rounding.
 !>
-!> The first numbers of neighbouring seeds are then nearly proportional to the seeds. Where users compare seeds, the state comes from
-!> SplitMix64: Steele, Lea and Flood (2014), Fast splittable pseudorandom number generators, OOPSLA '14, 453-472. Streams of one seed
-!> are as far apart as before; states of different seeds are as good as random, among 2**191.
+!> The first numbers of neighbouring seeds are then nearly proportional to the seeds. Where users compare seeds, the state comes
+!> from SplitMix64: Steele, Lea and Flood (2014), Fast splittable pseudorandom number generators, OOPSLA '14, 453-472. Streams of
+!> one seed are as far apart as before; states of different seeds are as good as random, among 2**191.
 module dondolo_record_random
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_kinds, only : wp
