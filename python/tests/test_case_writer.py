@@ -124,6 +124,26 @@ def test_a_written_case_runs_to_the_same_curve(catalogue, records, tmp_path):
     assert "! m: height of the wall" in (tmp_path / "wall.nml").read_text()
 
 
+ELEVATION = {"elevation_x": [0.0, 6.0, 6.0, 3.0, 0.0], "elevation_z": [0.0, 0.0, 6.0, 7.5, 6.0]}
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        dd.arch(1.75, 0.5, 180.0, voussoirs=8, density=1900.0, sides=1, restitution_value=0.7),
+        dd.horizontal_bending(4.0, 0.45, 1900.0, thrust=25e3, hinge_depth=0.01, sides=2, restitution_value=0.7),
+        dd.OneSidedWall(thickness=0.5, facade_length=6.0, restitution_value=0.5, hinge_depth=0.02, **ELEVATION),
+        dd.Corner(3.2, 0.5, wing_angle=20.0, hinge_depth=0.03),
+    ],
+    ids=lambda wall: wall.mechanism,
+)
+def test_tables_and_polygons_are_written(wall, catalogue, records, tmp_path):
+    """Lists of whole numbers that begin with 0 are read as they are written."""
+    study = dd.Study(records, [0.2, 0.4], im="pga")
+    dd.write_case(tmp_path / "case.nml", wall, study, catalogue=catalogue)
+    assert dd.read_case(tmp_path / "case.nml").population[0]._properties() == wall._properties()
+
+
 def test_what_a_case_cannot_say_is_refused(catalogue, records, wall, tmp_path):
     """Nothing is written where the case would say something else, nor over a file."""
     study = dd.Study(records, [0.5, 1.0])

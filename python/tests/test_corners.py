@@ -275,7 +275,7 @@ def test_calculation_report(lang, root, tmp_path):
     for unit in ("N/m", "kNm/m", "kNm²/m", "kg/m ", "t/m "):
         assert unit not in text, unit
     words = {
-        "en": ("corner 1", "wing 2", "of the whole corner", "along the bisector", "Forces of a corner are in all"),
+        "en": ("corner 1", "wing 2", "of the whole corner", "along the bisector", "Forces of a corner are those of"),
         "it": ("spigolo 1", "ala 2", "per l'intero cantonale", "lungo la bisettrice", "ribaltamento del cantonale"),
     }
     for one in words[lang]:
@@ -284,6 +284,10 @@ def test_calculation_report(lang, root, tmp_path):
     for missing in ("is that of the code: springs", "is that of the capacity curve", "è quella della curva"):
         assert missing not in text
     assert "2/3" in text
+    assert ("per metro di parete" if lang == "it" else "per metre of wall") not in text
+    # A strength divided by FC makes the triangle that is crushed deeper by the root of FC.
+    depth = 100.0 * results.population[0].base_hinge_depth * 1.35**0.5
+    assert f"{depth:.4g}".replace(".", "," if lang == "it" else ".") in text
 
 
 def test_archive(tmp_path):

@@ -55,6 +55,8 @@ def test_forces_of_a_chain_are_those_of_the_whole(pages):
         assert "t/m" not in text.replace("t/m³", "")
         assert ("per metre of wall" if lang == "en" else "per metro di parete") not in text
         assert re.search(r"P, H, T \[kN\]", text)
+        # What is said of corners, which are whole as well
+        assert ("corner" if lang == "en" else "cantonale") not in text
 
 
 def test_an_italian_report_of_a_chain_has_no_english(pages):

@@ -16,6 +16,7 @@ from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import of_tie, sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
 from dondolo.walls.chains import Chain
+from dondolo.walls.mechanisms import Corner
 from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import MasonryWall
 
@@ -192,7 +193,8 @@ def _hinge(document: Document) -> list[Block]:
         if not getattr(one.wall, "compressive_strength", None) or factor <= 1.0 or not one.is_turning:
             continue
         assert isinstance(one.wall, MasonryWall)
-        deeper = (factor - 1.0) * one.wall.base_hinge_depth
+        # In proportion to 1/f; of a corner, whose crushed triangle grows to both sides, to its root
+        deeper = ((math.sqrt(factor) if isinstance(one.wall, Corner) else factor) - 1.0) * one.wall.base_hinge_depth
         multiplier = sums["alpha_0"] - sums["carried"] * deeper / sums["force_lever"]
         depth = quantity(one.wall.base_hinge_depth + deeper, CENTIMETRES)
         made += ["; ", f"{name}: ", symbol_of("u"), " = ", depth, ", ", symbol_of("alpha_0"), " = ", number(multiplier)]

@@ -377,7 +377,7 @@ def modelling(document: Document) -> list[Block]:
             " and its inertia are those of this figure above the hinge, per metre of the length of the facade."
         )
         blocks.append(document.say(words))
-    if any(one.is_whole for one in document.subjects.several):
+    if any(isinstance(wall, Corner) for wall in walls):
         words = _(
             "A corner overturns along the bisector of its two walls: its square base carries a wing of each wall, above"
             " a crack whose angle is a judgement on the bond of the masonry. Depths are measured on the bisector, from"
@@ -427,7 +427,6 @@ def _travels(document: Document) -> tuple[Any, ...]:
 
 def actions(document: Document) -> list[Block]:
     """Chapter 6."""
-    is_corner = any(isinstance(one.wall, Corner) for one in document.subjects.several)
     whole = [
         document.say(
             _("{wall}: forces are those of the whole chain, heights and depths those of its tables."), wall=name
@@ -446,7 +445,7 @@ def actions(document: Document) -> list[Block]:
         Heading(document.text(_("Actions and seismic combination"))),
         *whole,
         *_per_metre(document),
-        *([document.say(_("Forces of a corner are in all, not per metre."))] if is_corner else []),
+        *_of_corners(document),
         document.say(
             _(
                 "{p} are the weights that a wall carries, its own among them, {q} those of masses that it pushes"
@@ -464,9 +463,24 @@ def actions(document: Document) -> list[Block]:
     ]
 
 
+def _of_corners(document: Document) -> list[Block]:
+    """The conventions of corners: all of them beside walls that have others, or where there are corners alone."""
+    several = document.subjects.several
+    if not any(isinstance(one.wall, Corner) for one in several):
+        return []
+    if any(not one.is_whole for one in several):
+        return [document.say(_("Forces of a corner are in all, not per metre."))]
+    words = _(
+        "Forces of a corner are those of the whole. Loads carried are positive downwards, thrusts outwards along the"
+        " bisector; heights are above the hinge, depths are measured on the bisector from the outer edge. In the"
+        " seismic combination permanent loads are increased by the part {psi} of variable ones."
+    )
+    return [document.say(words, psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")))]
+
+
 def _per_metre(document: Document) -> list[Block]:
     """The conventions of walls whose forces are per metre, if there are any."""
-    if all(isinstance(one.wall, Chain) for one in document.subjects.several):
+    if all(one.is_whole for one in document.subjects.several):
         return []
     return [
         document.say(

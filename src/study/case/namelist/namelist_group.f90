@@ -467,7 +467,7 @@ contains
                return
             end if
             if (j == 1) cycle
-            if (given(j - 1)%text == '0' .and. split_number(given(j - 1), given(j))) then
+            if (given(j - 1)%text == '0' .and. given(j)%touches .and. split_number(given(j - 1), given(j))) then
                call self%refuse(name, 'a decimal point is needed, such as 0.'//given(j)%text, not_a_number, error)
                return
             end if
