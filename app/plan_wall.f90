@@ -9,6 +9,7 @@ module dondolo_plan_wall
    use dondolo_record, only : record_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_tabulated_model, only : chain_name
    use dondolo_wall_tie_statics, only : greatest_acceleration, plastic_acceleration
    implicit none
    private
@@ -183,6 +184,8 @@ contains
       type(wall_input_type) :: input
       type(error_type), allocatable :: error
 
+      ! The hinges of a chain are its joints.
+      if (wall%mechanism_name() == chain_name) return
       if (wall%model%is_whole) then
          ! A corner has no hinge at its edge to compare with
          call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the edge, '//trim(merge('of crushed masonry', &
@@ -210,7 +213,7 @@ contains
       !> What there is to say
       character(len=*), intent(in) :: text
 
-      write (output_unit, '(a)') '   '//left(what//':', 10)//text
+      write (output_unit, '(a)') '   '//left(what//':', max(10, len(what) + 2))//text
    end subroutine print_line
 
    !> Print the modes of a building, and the motions of its floor

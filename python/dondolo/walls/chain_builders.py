@@ -60,7 +60,8 @@ def horizontal_bending(
     compressive_strength : float, optional
         Mean strength f of the masonry [Pa]. The hinges lie u = H/(2 · 0.85 f) behind the faces.
     hinge_depth : float, optional
-        Depth u of the hinges [m], 0 if left out. With a strength the thrust is at most 0.85 f · 2 u.
+        Depth u of the hinges [m]. With a strength the thrust is at most 0.85 f · 2 u. One of the strength and the depth
+        must be given; a depth of 0, hinges at the faces, is not on the safe side.
     hinge_at : float, optional
         Place of the hinge along the wall, from its first end [m]; the weakest if left out.
     pushes : sequence of tuple
@@ -75,7 +76,8 @@ def horizontal_bending(
     Raises
     ------
     InputError
-        Hinges that leave no lever, a thrust that crushes the masonry, or a place beyond the wall.
+        Neither a strength nor a depth, hinges that leave no lever, a thrust that crushes the masonry, or a place beyond
+        the wall.
 
     Notes
     -----
@@ -93,7 +95,9 @@ def horizontal_bending(
     for what, value in whole.items():
         if not as_number(what, value) > 0.0:
             raise argument_error("out_of_range", what, f" = {value}: must be positive")
-    depth = as_number("hinge_depth", hinge_depth or 0.0)
+    if hinge_depth is None and compressive_strength is None:
+        raise argument_error("not_given", "hinge_depth", ": must be given, or compressive_strength that it follows from")
+    depth = 0.0 if hinge_depth is None else as_number("hinge_depth", hinge_depth)
     if compressive_strength is not None:
         strength = as_number("compressive_strength", compressive_strength)
         if not strength > 0.0:
@@ -214,7 +218,7 @@ def arch(
     density : float
         Density of the masonry [kg/m3].
     sides : float
-        1, or 2 if it may sway to both sides.
+        1 for its weaker sway alone, or 2 if it may sway to both sides.
     restitution_value : float
         Ratio of the velocities after and before an impact.
     width : float, optional
@@ -232,8 +236,9 @@ def arch(
     Returns
     -------
     Chain
-        Three bodies, with the stones that stand still. It sways to the right, towards +x. An arch with loads that sways
-        to the left more easily is its mirror image.
+        Three bodies, with the stones that stand still. The weaker of the sways to the right and to the left is taken,
+        for `sides=1` too. The chain sways to the right, towards +x: an arch with loads that sways to the left more
+        easily is given as its mirror image.
 
     Raises
     ------
@@ -287,7 +292,7 @@ def arch(
         raise argument_error(
             "out_of_range", "sides", f" = {sides:g}: to the right and to the left the multipliers differ,"
             f" {multipliers[0]:.4g} and {multipliers[1]:.4g}, by more than 2 %")  # fmt: skip
-    if sides > 1.0 and multipliers[1] < multipliers[0] * (1.0 - 1e-9):
+    if multipliers[1] < multipliers[0] * (1.0 - 1e-9):
         stones, loads = _mirrored(stones, loads)
         found = _weakest_hinges(stones, loads, hinge_depth)
     hinges = found[0]

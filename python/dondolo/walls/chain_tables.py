@@ -6,6 +6,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._storage.tables import Table, csv_lines, shortest, write_lines
 
@@ -14,16 +16,19 @@ if TYPE_CHECKING:
 
 # Kinds of rows of bodies
 _CORNER, _MASS, _SECTOR = 0, 1, 2
+# Depths and heights below this are roundings of zero / height
+_ZERO = 1e-12
 # Which parts of a load are lifted and pushed, by its word
 _INERTIAS = {(0.0, 0.0): "none", (1.0, 0.0): "vertical", (1.0, 1.0): "both"}
 
 
 def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
-    """Write the files of a chain: what begins with a prefix; they have all digits."""
+    """Write the files of a chain: what begins with a prefix; they have all digits, but roundings of zero are 0."""
+    least = _ZERO * float(wall.height)
     tables = {
-        "bodies": _bodies(wall._rows("body_table")),
-        "joints": _joints(wall._rows("joint_table")),
-        "actions": _actions(wall._rows("action_table")),
+        "bodies": _bodies(_zeros(wall._rows("body_table"), [5, 6], least)),
+        "joints": _joints(_zeros(wall._rows("joint_table"), [3, 4, 6, 7], least)),
+        "actions": _actions(_zeros(wall._rows("action_table"), [1, 2], least)),
     }
     paths = []
     for name, table in tables.items():
@@ -32,6 +37,13 @@ def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...
         paths.append(Path(f"{os.fspath(prefix)}_{name}.csv"))
         write_lines(paths[-1], csv_lines(table, (), shortest))
     return tuple(paths)
+
+
+def _zeros(rows: FloatArray, places: list[int], least: float) -> FloatArray:
+    """Rows whose depths and heights are 0 where they are less than a rounding of it."""
+    rows = rows.copy()
+    rows[:, places] = np.where(np.abs(rows[:, places]) < least, 0.0, rows[:, places])
+    return rows
 
 
 def _numbers(values: FloatArray) -> list[int]:

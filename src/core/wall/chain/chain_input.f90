@@ -7,7 +7,7 @@ module dondolo_wall_chain_input
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_chain, only : chain_action_type, chain_type, guide, is_guide, is_pin, pin
-   use dondolo_wall_chain_masonry, only : masonry_type
+   use dondolo_wall_chain_masonry, only : find_nearest, masonry_type
    use dondolo_wall_chain_overlap, only : outline_type
    use dondolo_wall_chain_part, only : chain_mass_type, point_mass, polygon, sector, together
    implicit none
@@ -38,6 +38,12 @@ module dondolo_wall_chain_input
    !> Convex slices that the outline of a sector is cut into
    integer, parameter :: slices = 12
 
+   !> How far a pin may lie from the outlines of its bodies [m], and / height: those of sectors have straight sides
+   real(wp), parameter :: least_gap = 1.0e-3_wp, height_gap = 0.01_wp
+
+   !> How far what acts on a body may lie from its outlines, such as on a corbel [m]
+   real(wp), parameter :: corbel = 0.5_wp
+
 contains
 
    !> Read a chain
@@ -64,6 +70,9 @@ contains
          & to_text(size(chain%bodies))//' bodies', out_of_range, 'driver')
       call read_joints(chain, as_rows('joint_table', joint_numbers), problems)
       call read_actions(chain, masonry, as_rows('action_table', action_numbers), problems)
+      if (problems%count > 0) return
+      call check_places(chain, masonry, as_rows('body_table', body_numbers), max(least_gap, height_gap*input%number('height')), &
+         & problems)
       if (problems%count > 0) return
       equations = sum(chain%joints%kind)
       associate (n => size(chain%bodies))
@@ -306,6 +315,55 @@ contains
       end function cosine
 
    end subroutine read_actions
+
+   !> Check that pins lie on their bodies, and that what acts on a body is at it
+   subroutine check_places(chain, masonry, rows, gap, problems)
+      type(chain_type), intent(in) :: chain
+      type(masonry_type), intent(in) :: masonry
+      !> Rows of the bodies: one that has a given mass has an outline that is not known
+      real(wp), intent(in) :: rows(:, :)
+      !> How far a pin may lie from a body [m]
+      real(wp), intent(in) :: gap
+      type(problems_type), intent(inout) :: problems
+
+      integer :: ends(2), i, k
+
+      do i = 1, size(chain%joints)
+         if (chain%joints(i)%kind /= is_pin) cycle
+         ends = [chain%joints(i)%body, chain%joints(i)%other]
+         do k = 1, 2
+            ! Body 0 is the ground too, which has no outline.
+            if (ends(k) > 0) call check_place('joints: joint '//to_text(i)//', a pin,', ends(k), chain%joints(i)%at, gap, 'joints')
+         end do
+      end do
+      do i = 1, size(chain%actions)
+         call check_place('actions: the action', chain%actions(i)%body, chain%actions(i)%at, corbel, 'actions')
+      end do
+      do i = 1, size(masonry%standing)
+         call check_place('actions: the action', 0, masonry%standing(i)%at, corbel, 'actions')
+      end do
+
+   contains
+
+      !> Check the distance of a point from a body
+      subroutine check_place(what, body, at, most, name)
+         !> What lies there, and the table that has it
+         character(len=*), intent(in) :: what, name
+         integer, intent(in) :: body
+         !> The point, and its largest distance [m]
+         real(wp), intent(in) :: at(2), most
+
+         real(wp) :: distance
+         integer :: part
+
+         if (any(nint(rows(1, :)) == body .and. nint(rows(3, :)) == is_mass)) return
+         call find_nearest(masonry, body, at, part, distance)
+         if (part > 0 .and. distance > most) call problems%note(what//' at depth '//rounded(0.0_wp - at(1))//' m, height '// &
+            & rounded(at(2))//' m is '//rounded(distance)//' m off body '//to_text(body)//', must be at most '//rounded(most)// &
+            & ' m', out_of_range, name)
+      end subroutine check_place
+
+   end subroutine check_places
 
    !> Do joints with the ground lie at two levels?
    pure logical function stands_between(list, bodies)

@@ -13,7 +13,7 @@ module dondolo_wall_chain_masonry
    implicit none
    private
 
-   public :: impact_bound, is_symmetric, masonry_type
+   public :: find_nearest, impact_bound, is_symmetric, masonry_type
 
    !> How near points of one joint are [m]
    real(wp), parameter :: near = 1.0e-6_wp
@@ -238,25 +238,12 @@ contains
          !> [m]
          real(wp), intent(in) :: at(2)
 
-         real(wp) :: distance, least
-         integer :: k, m
+         real(wp) :: distance
 
-         part = 0
-         if (body == 0 .and. .not. any(masonry%body == 0)) return
-         least = huge(1.0_wp)
-         do k = 1, size(masonry%outlines)
-            if (masonry%outlines(k)%body /= body) cycle
-            distance = merge(0.0_wp, huge(1.0_wp), is_within(masonry%outlines(k)%corners, at))
-            do m = 1, size(masonry%outlines(k)%corners, 2)
-               distance = min(distance, distance_to(edge_of(masonry%outlines(k), m), at))
-            end do
-            if (distance >= least) cycle
-            least = distance
-            part = masonry%outlines(k)%part
-         end do
+         call find_nearest(masonry, body, at, part, distance)
          if (body > 0) then
             if (part == 0) part = findloc(masonry%body, body, dim=1)
-         else if (least > near) then
+         else if (distance > near) then
             part = 0
          end if
       end function part_at
@@ -274,6 +261,34 @@ contains
       end subroutine add_actions
 
    end subroutine impact_bound
+
+   !> Find the part of a body whose outline is nearest to a point
+   pure subroutine find_nearest(masonry, body, at, part, distance)
+      type(masonry_type), intent(in) :: masonry
+      integer, intent(in) :: body
+      !> [m]
+      real(wp), intent(in) :: at(2)
+      !> 0: the body has no outlines
+      integer, intent(out) :: part
+      !> From the outline, 0 within it; huge without outlines [m]
+      real(wp), intent(out) :: distance
+
+      real(wp) :: here
+      integer :: k, m
+
+      part = 0
+      distance = huge(1.0_wp)
+      do k = 1, size(masonry%outlines)
+         if (masonry%outlines(k)%body /= body) cycle
+         here = merge(0.0_wp, huge(1.0_wp), is_within(masonry%outlines(k)%corners, at))
+         do m = 1, size(masonry%outlines(k)%corners, 2)
+            here = min(here, distance_to(edge_of(masonry%outlines(k), m), at))
+         end do
+         if (here >= distance) cycle
+         distance = here
+         part = masonry%outlines(k)%part
+      end do
+   end subroutine find_nearest
 
    !> Add the joints between parts that share an edge
    pure subroutine add_shared(contacts, outlines)

@@ -94,6 +94,7 @@ contains
 
       corners = outline%corners
       do i = 1, size(corners, 2)
+         if (outline%body == 0) exit
          call point_motion(chain, motion, outline%body, outline%corners(:, i), corners(:, i), rate, second)
       end do
       if (area_of(corners) < 0.0_wp) corners = corners(:, size(corners, 2):1:-1)

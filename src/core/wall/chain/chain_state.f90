@@ -64,7 +64,7 @@ contains
       end if
    end subroutine check_chain
 
-   !> Check that bodies do not lie in one another, and that hinges are on the side on which joints open
+   !> Check that bodies and what stands still do not lie in one another, and that hinges are on the side on which joints open
    subroutine check_overlaps(chain, outlines, motion, error)
       type(chain_type), intent(in) :: chain
       type(outline_type), intent(in) :: outlines(:)
@@ -77,7 +77,7 @@ contains
       logical :: is_there
       integer :: i, k
 
-      do i = 1, size(chain%bodies)
+      do i = 0, size(chain%bodies)
          do k = i + 1, size(chain%bodies)
             area = overlap_of_bodies(chain, outlines, motion, i, k)
             if (area <= least_overlap) cycle
@@ -93,7 +93,7 @@ contains
       if (.not. is_there) return
       do i = 1, size(chain%joints)
          associate (joint => chain%joints(i))
-            if (joint%kind /= is_pin .or. joint%body == 0 .or. joint%other == 0) cycle
+            if (joint%kind /= is_pin) cycle
             ! The joint opens by as much as it would close if the chain moved backwards.
             if (overlap_of_bodies(chain, outlines, ahead, joint%body, joint%other) <= overlap_of_bodies(chain, outlines, back, &
                & joint%body, joint%other)) cycle
@@ -105,7 +105,7 @@ contains
       end do
    end subroutine check_overlaps
 
-   !> Find where bodies are deepest in each other up to a rotation
+   !> Find where bodies are deepest in each other, or in what stands still (body 0), up to a rotation
    subroutine find_overlap(chain, outlines, last, overlap)
       type(chain_type), intent(in) :: chain
       type(outline_type), intent(in) :: outlines(:)
@@ -124,7 +124,7 @@ contains
       do place = 1, places
          call walk_to(chain, last*real(place, wp)/real(places, wp), motion, is_there)
          if (.not. is_there) return
-         do i = 1, size(chain%bodies)
+         do i = 0, size(chain%bodies)
             do k = i + 1, size(chain%bodies)
                depth = depth_of_overlap(chain, outlines, motion, i, k)
                if (depth > overlap%depth) overlap = deepest_overlap_type(i, k, depth, motion%q)
