@@ -128,9 +128,7 @@ def test_loads_on_one_side_of_an_arch():
     weaker, same = ring(loads=[load], sides=1), ring(loads=[mirror], sides=1)
     assert check_values(weaker)["alpha_0"] == pytest.approx(check_values(same)["alpha_0"], rel=1e-12)
     # Of both sways it is the lesser: that towards the side without the load
-    sways = [
-        one.multiplier for one in _weakest_hinges(_stones(10.0, 1.5, 157.5, 7, 2400.0, 1.0, None), [load], 0.0)
-    ]
+    sways = [one.multiplier for one in _weakest_hinges(_stones(10.0, 1.5, 157.5, 7, 2400.0, 1.0, None), [load], 0.0)]
     assert abs(sways[0] - sways[1]) > 0.02 * min(sways)
     assert check_values(weaker)["alpha_0"] == pytest.approx(min(sways), rel=1e-9)
     assert [one._rows("action_table")[0, 1] for one in (weaker, same)] == [6.0, 6.0]

@@ -179,6 +179,7 @@ def test_crushed_masonry():
         ({"hinge_depth": None}, "hinge_depth: must be given and positive"),
         ({"hinge_depth": 0.0}, "hinge_depth: must be given and positive"),
         ({"hinge_depth": 0.24}, r"less deep than a third of the diagonal of the base, 0\.2357 m"),
+        ({"wing_angle": 60.0}, r"restitution_value: must be given, .* as -0\.\d+, it must be more than 0"),
         ({"restitution": "sorrentino"}, "must be one of 'default', 'impulse'"),
         ({"thrusts": [replace(PUSH, total=5e4)]}, "not stable at rest; its weights resist with .* N m, thrusts"),
         (
@@ -193,6 +194,10 @@ def test_crushed_masonry():
 def test_refusals(more, match):
     with pytest.raises(dd.errors.InputError, match=match):
         corner(**more)
+
+
+def test_wide_wings_need_a_restitution():
+    assert corner(wing_angle=60.0, restitution_value=0.3).restitution_coefficient == 0.3
 
 
 def test_loads_of_walls_are_per_metre():

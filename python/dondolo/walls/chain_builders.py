@@ -96,7 +96,7 @@ def horizontal_bending(
         if not as_number(what, value) > 0.0:
             raise argument_error("out_of_range", what, f" = {value}: must be positive")
     if hinge_depth is None and compressive_strength is None:
-        raise argument_error("not_given", "hinge_depth", ": must be given, or compressive_strength that it follows from")
+        raise argument_error("not_given", "hinge_depth", ": must be given, or compressive_strength in its place")
     depth = 0.0 if hinge_depth is None else as_number("hinge_depth", hinge_depth)
     if compressive_strength is not None:
         strength = as_number("compressive_strength", compressive_strength)

@@ -140,7 +140,7 @@ class OneSidedWall(BlockWall):
     elevation_x : sequence of float, optional
         Places along the facade of the corners of its elevation, around it, instead of height [m].
     elevation_z : sequence of float, optional
-        Heights of these corners above the base [m].
+        Heights of these corners above the base [m]. 'default' is then 'impulse', the only model of restitution.
     openings : sequence of Opening, optional
         Doors and windows in this elevation.
     masonry_compression : float, optional

@@ -18,7 +18,7 @@ module dondolo_wall_elevation
    implicit none
    private
 
-   public :: elevation_rows, read_elevation, top_of_elevation
+   public :: eaves_of_elevation, elevation_rows, read_elevation, top_of_elevation
 
    !> Owner: walls that lean on transverse walls
    character(len=choices_length), parameter :: one_sided(most_choices) = [character(len=choices_length) :: 'one_sided', &
@@ -42,7 +42,26 @@ module dondolo_wall_elevation
       & property_type('opening_height', is_list, unit='m', owners=one_sided, optional=.true., positive=.true., &
       &   smallest=1.0e-3_wp, largest=1.0e3_wp, usual_most=20.0_wp, example='1.4, 1.4', meaning='height of each of them')]
 
+   !> Part of the width of an elevation by which facade_length may differ from it
+   real(wp), parameter :: length_tolerance = 0.01_wp
+
 contains
+
+   !> The height at the lower one of both ends, up to which transverse walls meet the facade [m]; huge: there is no elevation
+   pure real(wp) function eaves_of_elevation(input) result(eaves)
+      !> Settings of the wall
+      class(settings_type), intent(in) :: input
+
+      real(wp), allocatable :: x(:), z(:)
+
+      eaves = huge(1.0_wp)
+      x = input%list('elevation_x')
+      z = input%list('elevation_z')
+      if (size(x) == 0 .or. size(x) /= size(z)) return
+      associate (slack => same*(maxval(x) - minval(x)))
+         eaves = min(maxval(z, x <= minval(x) + slack), maxval(z, x >= maxval(x) - slack))
+      end associate
+   end function eaves_of_elevation
 
    !> The height of the highest corner; 0: there is no elevation
    pure real(wp) function top_of_elevation(input) result(top)
@@ -91,13 +110,14 @@ contains
       if (problems%count > before) return
       if (size(x) < 3) call problems%note('elevation_x: has '//to_text(size(x))//' corners, must have at least 3', wrong_length, &
          & 'elevation_x')
-      call check_crossings(x, z, problems)
       if (problems%count > before) return
+      call check_edges(x, z, problems)
+      if (problems%count > before) return
+      associate (b => input%number('facade_length'), wide => maxval(x) - minval(x))
+         if (abs(b - wide) > length_tolerance*wide) call problems%note('facade_length = '//to_text(b)//': must be '// &
+            & rounded(wide)//' m, the width of the elevation', out_of_range, 'facade_length')
+      end associate
       sums = moments(x, z)
-      if (.not. sums(1) > 0.0_wp) then
-         call problems%note('elevation_z: no masonry is above the base, at the height 0', out_of_range, 'elevation_z')
-         return
-      end if
       do i = 1, size(left)
          ! What the elevation has within the rectangle is all of the rectangle
          associate (right => left(i) + width(i), top => low(i) + height(i))
@@ -115,6 +135,8 @@ contains
          call problems%note('opening_x: the openings leave no masonry above the base', out_of_range, 'opening_x')
          return
       end if
+      call check_levels(x, z, left, low, width, height, problems)
+      if (problems%count > before) return
       allocate (body)
       associate (t => input%number('thickness'), per => input%number('density')/input%number('facade_length'))
          body%mass = per*t*sums(1)
@@ -210,35 +232,112 @@ contains
       end do
    end subroutine cut
 
-   !> Check that no two edges of a polygon cross
-   subroutine check_crossings(x, z, problems)
+   !> Check that masonry is at every level from the base to the top
+   subroutine check_levels(x, z, left, low, width, height, problems)
+      !> Corners [m]
+      real(wp), intent(in) :: x(:), z(:)
+      !> Openings, which lie within the polygon and apart from each other [m]
+      real(wp), intent(in) :: left(:), low(:), width(:), height(:)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+
+      real(wp), allocatable :: edges(:)
+      real(wp) :: bottom, top, area, taken, least
+      character(len=:), allocatable :: levels
+      integer :: i
+
+      ! Between two neighbours of these levels no edge begins or ends
+      edges = [0.0_wp, z, low, low + height]
+      bottom = 0.0_wp
+      do while (any(edges > bottom + same*maxval(z)))
+         top = minval(edges, edges > bottom + same*maxval(z))
+         area = area_within(x, z, minval(x), maxval(x), bottom, top)
+         taken = 0.0_wp
+         do i = 1, size(left)
+            taken = taken + width(i)*max(0.0_wp, min(top, low(i) + height(i)) - max(bottom, low(i)))
+         end do
+         least = same*(maxval(x) - minval(x))*(top - bottom)
+         levels = 'from '//rounded(bottom)//' to '//rounded(top)//' m above the base, what is above rests on nothing'
+         if (.not. area > least) then
+            call problems%note('elevation_z: no masonry is '//levels//'; heights are from the base', out_of_range, 'elevation_z')
+            return
+         else if (.not. area - taken > least) then
+            call problems%note('opening_x: openings take the whole width of the facade '//levels, out_of_range, 'opening_x')
+            return
+         end if
+         bottom = top
+      end do
+   end subroutine check_levels
+
+   !> Check that no two edges of a polygon cross or touch, but at the corner that both have
+   subroutine check_edges(x, z, problems)
       !> Corners [m]
       real(wp), intent(in) :: x(:), z(:)
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
+      real(wp) :: slack
       integer :: i, k, n
 
       n = size(x)
-      do i = 1, n - 2
-         do k = i + 2, n
-            if (i == 1 .and. k == n) cycle
-            if (.not. cross(i, modulo(i, n) + 1, k, modulo(k, n) + 1)) cycle
-            call problems%note('elevation_x: the edges after corners '//to_text(i)//' and '//to_text(k)//' cross, corners must '// &
-               & 'be in their order around the facade', out_of_range, 'elevation_x')
-            return
+      slack = same*max(maxval(x) - minval(x), maxval(z) - minval(z))
+      do i = 1, n - 1
+         do k = i + 1, n
+            if (crosses(i, after(i), k, after(k))) then
+               call problems%note('elevation_x: the edges after corners '//to_text(i)//' and '//to_text(k)//' cross, corners '// &
+                  & 'must be in their order around the facade', out_of_range, 'elevation_x')
+               return
+            else if (touches(i, k)) then
+               call problems%note('elevation_x: the edges after corners '//to_text(i)//' and '//to_text(k)//' touch or '// &
+                  & 'overlap, each corner must be given once, in their order around the facade', out_of_range, 'elevation_x')
+               return
+            end if
          end do
       end do
 
    contains
 
-      !> Do the edges from a to b and from c to d cross?
-      pure logical function cross(a, b, c, d)
-         !> Numbers of corners
+      !> The corner after one
+      pure integer function after(number)
+         integer, intent(in) :: number
+
+         after = modulo(number, n) + 1
+      end function after
+
+      !> Do two edges touch, but at the corner that both have?
+      pure logical function touches(one, other)
+         !> Numbers of the corners at which they begin
+         integer, intent(in) :: one, other
+
+         if (after(one) == other) then
+            touches = near(one, other) .or. near(after(other), one)
+         else if (after(other) == one) then
+            touches = near(other, one) .or. near(after(one), other)
+         else
+            touches = near(one, other) .or. near(after(one), other) .or. near(other, one) .or. near(after(other), one)
+         end if
+      end function touches
+
+      !> Is a corner on an edge?
+      pure logical function near(corner, edge)
+         !> Numbers of the corner, and of that at which the edge begins
+         integer, intent(in) :: corner, edge
+
+         real(wp) :: along(2), to(2)
+
+         along = [x(after(edge)) - x(edge), z(after(edge)) - z(edge)]
+         to = [x(corner) - x(edge), z(corner) - z(edge)]
+         if (sum(along**2) > 0.0_wp) to = to - along*max(0.0_wp, min(1.0_wp, sum(to*along)/sum(along**2)))
+         near = norm2(to) <= slack
+      end function near
+
+      !> Do two edges cross?
+      pure logical function crosses(a, b, c, d)
+         !> Numbers of the corners from and to which they go
          integer, intent(in) :: a, b, c, d
 
-         cross = side(a, b, c)*side(a, b, d) < 0.0_wp .and. side(c, d, a)*side(c, d, b) < 0.0_wp
-      end function cross
+         crosses = side(a, b, c)*side(a, b, d) < 0.0_wp .and. side(c, d, a)*side(c, d, b) < 0.0_wp
+      end function crosses
 
       !> On which side of the line through two corners a third one is
       pure real(wp) function side(a, b, c)
@@ -249,6 +348,6 @@ contains
          if (.not. abs((x(b) - x(a))*(z(c) - z(a)) - (z(b) - z(a))*(x(c) - x(a))) > 0.0_wp) side = 0.0_wp
       end function side
 
-   end subroutine check_crossings
+   end subroutine check_edges
 
 end module dondolo_wall_elevation

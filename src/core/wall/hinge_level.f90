@@ -7,6 +7,7 @@ module dondolo_wall_hinge_level
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_list, is_words, number_of_words, property_type, word_of
    use dondolo_base_text, only : rounded, to_text
+   use dondolo_wall_elevation, only : top_of_elevation
    use dondolo_wall_properties, only : is_of_building, wall_input_type
    implicit none
    private
@@ -43,7 +44,8 @@ contains
       integer :: i
 
       heights = input%list('section_height')
-      if (size(heights) == 0) heights = [input%number('height')]
+      ! Of an elevation the height may not be set yet
+      if (size(heights) == 0) heights = [max(input%number('height'), top_of_elevation(input))]
       tall = sum(heights)
       if (.not. input%has('hinge_at')) then
          levels = input%list('hinge_level')
@@ -293,7 +295,7 @@ contains
       call input%set('wedge_bottom', max(bottom, level) - level)
       call input%set('wedge_top', top - level)
       call choose_all(input, 'wedge', above)
-      if (.not. any(above)) call input%clear('facade_length')
+      if (.not. (any(above) .or. input%has('elevation_x'))) call input%clear('facade_length')
    end subroutine cut_wedges
 
    !> Values of a list for each of several things: as given, or one for all

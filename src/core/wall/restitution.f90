@@ -52,6 +52,8 @@ module dondolo_wall_restitution
    !> Speed ratio of the impacts of a wall by each model; not allocated: its mechanism does not have the model
    type :: impact_models_type
       real(wp), allocatable :: sorrentino, impulse
+      !> Is a coefficient of the wrong sign a plastic impact? Else it is refused
+      logical :: may_be_plastic = .true.
    contains
       !> Which of them 'default' is
       procedure :: default
@@ -104,8 +106,8 @@ contains
    end function default
 
    !> Speed after an impact / speed before it: the model's value, or the number given, times the factor. A coefficient of the
-   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3). Ranges of value and factor are
-   !> those of their properties (dondolo_wall_properties)
+   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3), but of a corner it is refused. Ranges of value
+   !> and factor are those of their properties (dondolo_wall_properties)
    subroutine speed_ratio(self, models, ratio, error)
       !> What the user asks
       class(restitution_type), intent(in) :: self
@@ -113,7 +115,7 @@ contains
       type(impact_models_type), intent(in) :: models
       !> Speed ratio e, 0 <= e < 1
       real(wp), intent(out) :: ratio
-      !> A model that the mechanism does not have, or beside a number; a ratio of 1 or more
+      !> A model that the mechanism does not have, or beside a number; a ratio of 1 or more; a model that has no ratio for the wall
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: model
@@ -147,8 +149,17 @@ contains
             & not_a_word, 'restitution')
          return
       end if
+      if (.not. (allocated(self%value) .or. models%may_be_plastic .or. coefficient > 0.0_wp)) then
+         call raise_input(error, 'restitution_value: must be given, the model '''//model//''' gives the restitution e of an '// &
+            & 'impact as '//brief(coefficient)//', it must be more than 0', not_given, 'restitution_value')
+         return
+      end if
       ratio = max(0.0_wp, self%factor*coefficient)
-      if (.not. ratio < 1.0_wp) then
+      if (.not. (allocated(self%value) .or. ratio < 1.0_wp .or. coefficient < 1.0_wp)) then
+         call raise_input(error, 'restitution_value: must be given, the model '''//model//''' gives the restitution e of an '// &
+            & 'impact as '//brief(coefficient)//', it must be less than 1', not_given, 'restitution_value')
+         ratio = 0.0_wp
+      else if (.not. ratio < 1.0_wp) then
          call raise_input(error, 'restitution_factor = '//to_text(self%factor)// &
             & ': makes the restitution e of an impact '//brief(ratio)//', must be less than 1'// &
             & trim(unit_question('', self%factor, 0.1_wp, 1.2_wp, 0.9_wp)), out_of_range, 'restitution_factor')

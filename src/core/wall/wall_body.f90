@@ -54,7 +54,14 @@ contains
       thicknesses = input%list('section_thickness')
       if (size(heights) > 0) call follow('height', sum(heights), 'the sum of section_height')
       if (size(thicknesses) > 0) call follow('thickness', thicknesses(1), 'that of the lowest section')
-      if (top_of_elevation(input) > 0.0_wp) call follow('height', top_of_elevation(input), 'that of the highest corner')
+      if (top_of_elevation(input) > 0.0_wp) then
+         call follow('height', top_of_elevation(input), 'that of the highest corner')
+      else if (input%has('elevation_z')) then
+         call problems%note('elevation_z: no masonry is above the base, at the height 0', out_of_range, 'elevation_z')
+         ! That of all of it, so that no height is asked for
+         if (.not. input%has('height')) call input%set('height', maxval(input%list('elevation_z')) &
+            & - minval(input%list('elevation_z')))
+      end if
       if (input%has('mass') .and. input%number('height')*input%number('thickness') > 0.0_wp) call follow('density', &
          & input%number('mass')/(input%number('height')*input%number('thickness')), 'that of the mass')
 

@@ -9,6 +9,7 @@ module dondolo_wall_wedge
    use dondolo_base_property, only : choices_length, is_list, most_choices, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
+   use dondolo_wall_elevation, only : eaves_of_elevation
    use dondolo_wall_lists, only : take
    use dondolo_wall_rigid_body, only : joined, rigid_body_type, same, section_type
    implicit none
@@ -70,6 +71,7 @@ contains
       type(wedge_type), allocatable, intent(out) :: wedges(:)
 
       real(wp), allocatable :: angle(:), bottom(:), top(:), length(:)
+      character(len=:), allocatable :: of
       real(wp) :: tall
       integer :: i
 
@@ -88,6 +90,11 @@ contains
       wedges%length = length
       wedges%slope = tan(angle*pi/half_turn)
       tall = sum(sections%height)
+      of = 'wall'
+      if (input%has('elevation_x')) then
+         tall = eaves_of_elevation(input)
+         of = 'elevation at its ends'
+      end if
       if (.not. sum(wedges%thickness) < input%number('facade_length')) call problems%note('wedge_thickness: '// &
          & rounded(sum(wedges%thickness))//' m in all, must be less than facade_length = '// &
          & to_text(input%number('facade_length')), out_of_range, 'wedge_thickness')
@@ -95,7 +102,7 @@ contains
          if (.not. top(i) > bottom(i)) call problems%note('wedge '//to_text(i)//': its top '//to_text(top(i))//' must be above '// &
             & 'its bottom, '//to_text(bottom(i)), out_of_range, 'wedge_top')
          if (top(i) > tall*(1.0_wp + same)) call problems%note('wedge '//to_text(i)//': its top '//to_text(top(i))//' must be '// &
-            & 'at most '//rounded(tall)//' m, the height of the wall', out_of_range, 'wedge_top')
+            & 'at most '//rounded(tall)//' m, the height of the '//of, out_of_range, 'wedge_top')
          if (problems%count == 0) wedges(i)%body = body_of(wedges(i), sections, &
             & input%number('density')/input%number('facade_length'))
       end do
