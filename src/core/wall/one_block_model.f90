@@ -377,8 +377,9 @@ contains
             impacts%impulse = two_sided_impulse(self%body)
          else
             ! Equation (2) of Nale et al. is that of a block, not of one with wedges, of an elevation nor of a corner
-            if (.not. (self%has_wedges() .or. allocated(self%body%facade) .or. allocated(self%body%corner))) &
-               & impacts%sorrentino = -one_sided_restitution(atan2(self%body%body%depth, self%body%body%height))
+            if (.not. (self%has_wedges() .or. allocated(self%body%facade) .or. allocated(self%body%corner))) then
+               impacts%sorrentino = -one_sided_restitution(atan2(self%body%body%depth, self%body%body%height))
+            end if
             impacts%impulse = -one_sided_impulse(self%body)
             ! That a corner with wide wings would not bounce off at all is outside what the convention is for
             impacts%may_be_plastic = .not. allocated(self%body%corner)
