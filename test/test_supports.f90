@@ -481,7 +481,7 @@ contains
       call refused('one_sided', 'level_top', 9.5_wp, 'level_top = 9.5: must be at most building_height = 9')
       call refused('one_sided', 'level_top', 5.0_wp, 'level_top = 5: must be at least level = 6')
       call refused('one_sided', 'diaphragm_period', 0.4_wp, 'diaphragm_period = 0.4: only of a two_block wall; '// &
-         & 'a one_sided wall leans on transverse walls, which do not move with a diaphragm')
+         & 'a one_sided wall and a corner lean on transverse walls, which do not move with a diaphragm')
       call refused('free_standing', 'level_top', 9.0_wp, 'level_top: not of a free-standing wall')
       call refused('free_standing', 'diaphragm_period', 0.4_wp, 'diaphragm_period: not of a free-standing wall')
       call refused('two_block', 'diaphragm_damping', 0.1_wp, 'diaphragm_damping: only with diaphragm_period')
