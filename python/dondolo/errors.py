@@ -168,8 +168,8 @@ class NotKnownError(InputError, AttributeError):
     >>> import dondolo as dd
     >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
     >>> stripes = dd.multiple_stripe(wall, records, [0.6, 0.8], progress=False)
-    >>> hasattr(stripes, "theta_bounds")
-    False
+    >>> hasattr(stripes, "theta_bounds"), issubclass(dd.errors.NotKnownError, AttributeError)
+    (False, True)
     """
 
 

@@ -39,6 +39,21 @@ WALLS = {
         "overburden": 5e3,
         "overburden_inertia": 0.5,
     },
+    "corner": {
+        "mechanism": "corner",
+        "height": 3.2,
+        "thickness": 0.5,
+        "hinge_depth": 0.03,
+        "wing_angle": 20.0,
+        "wing_length": 1.2,
+        "load_total": [6e3],
+        "load_depth": [0.45],
+        "load_height": [3.2],
+        "load_inertia": "both",
+        "thrust_total": [2e3],
+        "thrust_depth": [0.4],
+        "thrust_height": [3.2],
+    },
 }
 OTHERS = {
     "job": {"task": "stripes"},

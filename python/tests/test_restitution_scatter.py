@@ -193,10 +193,10 @@ def test_the_executable_has_the_same_motions(root, executable, tmp_path):
 
 def test_certified_motions_have_the_same_draws(few):
     """In 33 digits the same ratios are drawn: a history that is run again comes nearer to one with tight tolerances."""
-    wall = dd.FreeStandingWall(2.0, 0.3, restitution_sd=0.01)
+    wall = dd.FreeStandingWall(2.0, 0.3, restitution_sd=0.01, restitution_seed=23)
     options = {"levels": [0.9], "progress": False}
     once, certified, exact = (
-        dd.multiple_stripe(wall, few[5:6], **options, **more)
+        dd.multiple_stripe(wall, few[3:4], **options, **more)
         for more in ({}, {"certify": True}, {"solver": dd.Solver(rtol=1e-12, atol=1e-14)})
     )
     assert certified.status.tolist() == [[Certified.QUADRUPLE]]

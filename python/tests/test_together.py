@@ -240,6 +240,7 @@ def test_the_table_says_what_goes_together(root):
             "tie_height",
             "interlock_overlap",
             "wedge_thickness",
+            "elevation_x",
         ),
     }
     for group in ("wall", "building"):
