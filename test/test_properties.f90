@@ -496,6 +496,8 @@ contains
          call input%set('hinge_depth', 0.02_wp)
       end if
       if (what == 'hinge_level') call input%set('hinge_level', [0.4_wp])
+      ! One that is as low as it is thick does not bounce off by itself.
+      if (what == 'height') call input%set('restitution_value', 0.5_wp)
       do i = 1, size(names)
          if (names(i)(:index(names(i), '_')) /= what(:index(what, '_')) .or. input%has(trim(names(i)))) cycle
          call input%set(trim(names(i)), [0.4_wp, 0.4_wp])
