@@ -38,9 +38,9 @@ from dondolo.reporting.relazione.word_pages import set_pages, set_properties
 
 _DOTS_PER_INCH = 300
 # Of figures [cm], of what is between the margins [cm], and of small letters [points]
-_WIDTH, _HEIGHT, _TEXT, _SMALL = 15.5, 6.6, 16.6, 8.5
-# Characters of a column: of the longest cell no more than these count
-_LONGEST = 34
+_WIDTH, _HEIGHT, _TEXT, _SMALL = 15.5, 6.0, 16.6, 8.5
+# Of a long cell no more than these widths of letters count
+_LONGEST = 21
 # Margins of a cell, and size of a point [cm]
 _MARGINS, _POINT = 0.42, 2.54 / 72
 # Widths of bold letters over their size, narrow and wide ones, capitals and all others
@@ -310,8 +310,7 @@ class _Writer:
         """Size of letters of a table and widths of its columns [cm]: no word is parted, long cells get more."""
         texts = [[self._document.language.plain(piece) for piece in column] for column in zip(*rows, strict=True)]
         words = [max(breadth(word) for text in column for word in parts_of_text(text) or [""]) for column in texts]
-        longest = [min(_LONGEST, max(map(len, column[1:]), default=0)) for column in texts]
-        # Every column has room for its longest word, and the rest goes to those with long cells.
+        # Every column has room for its longest word, and the rest goes to those with many long cells.
         sizes = _SIZES[1:] if len(texts) > _WIDE else _SIZES
         needs: list[float] = []
         for size in sizes:
@@ -319,7 +318,10 @@ class _Writer:
             if sum(needs) <= _TEXT:
                 break
         rest = max(0.0, _TEXT - sum(needs))
-        wanted = [max(0.05, 0.28 * long - word) for word, long in zip(words, longest, strict=True)]
+        wanted = [
+            0.05 + sum(max(0.0, min(_LONGEST, breadth(text)) - word) for text in column) / len(column)
+            for word, column in zip(words, texts, strict=True)
+        ]
         widths = [need + rest * want / sum(wanted) for need, want in zip(needs, wanted, strict=True)]
         return size, [_TEXT * width / sum(widths) for width in widths]
 

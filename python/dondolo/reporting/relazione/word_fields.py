@@ -73,7 +73,7 @@ def add_contents(file: Any, entries: Sequence[Entry], *, width: float) -> None:
         name = f"toc {entry.level}"
         line = file.add_paragraph(style=name if any(style.name == name for style in file.styles) else None)
         shape = line.paragraph_format
-        shape.space_after, shape.left_indent = Pt(0), Cm(_INDENT * (entry.level - 1))
+        shape.space_after, shape.line_spacing, shape.left_indent = Pt(0), 1.0, Cm(_INDENT * (entry.level - 1))
         shape.tab_stops.add_tab_stop(Cm(width), WD_TAB_ALIGNMENT.RIGHT, WD_TAB_LEADER.DOTS)
         lines.append(line)
     start = [
