@@ -8,7 +8,7 @@ import pytest
 
 import dondolo as dd
 from dondolo.exchange.changelog import all_changes, changes_between
-from dondolo.exchange.differences import differences
+from dondolo.exchange.differences import _change, differences
 
 LEVELS = [0.4, 0.6, 0.8, 1.0, 1.2]
 
@@ -24,6 +24,19 @@ def runs(records, tmp_path_factory):
         (folder / name).mkdir()
         dd.multiple_stripe(wall, some, LEVELS, progress=False).write_results(folder / name / "parapet")
     return folder
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("0.4", "0.41", "0.4 -> 0.41 (+2.5 %)"),
+        ("2.0", "2.36", "2 -> 2.36 (+18 %)"),
+        ("0.5", "0.0", "0.5 -> 0 (-100 %)"),
+        ("0.5", "10.0", "0.5 -> 10 (+1900 %)"),
+    ],
+)
+def test_shares_have_no_powers_of_ten(old, new, words):
+    assert _change(old, new) == words
 
 
 def test_the_same(runs):

@@ -150,10 +150,25 @@ def test_italian_heads_have_the_units_of_the_names():
     for ending in headings.UNITS:
         words = next(iter(headings.COLUMNS))
         found = re.fullmatch(r".+ \[(.+)\]", headings.heading(f"{words}{ending}"))
-        assert found[1].replace("²", "2").replace("³", "3") == unit_of_ending(ending), ending
+        assert found[1].replace("²", "2").replace("³", "3").replace("°", "deg") == unit_of_ending(ending), ending
     # The longest ending first, or part of a unit is taken for a word
     names = list(headings.UNITS)
     assert all(not two.endswith(one) for place, one in enumerate(names) for two in names[place + 1 :])
+
+
+@pytest.mark.parametrize(
+    ("name", "head"),
+    [
+        ("wing_angle_deg", "angolo delle lesioni del cantonale [°]"),
+        ("load2_total_n", "carico intero del cantonale 2 [N]"),
+        ("elevation12_z_m", "quota del vertice del prospetto 12 [m]"),
+        ("wedge1_angle_deg", "angolo della lesione del cuneo 1 [°]"),
+        ("opening1_width_m", "larghezza dell'apertura 1 [m]"),
+        ("load1_n_m", "carico 1 [N/m]"),
+    ],
+)
+def test_italian_heads_of_parts(name, head):
+    assert headings.heading(name) == head
 
 
 # --- Words by their keys

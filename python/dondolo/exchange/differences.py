@@ -215,9 +215,15 @@ def _change(old: str, new: str) -> str:
     before, after = _number(old), _number(new)
     if before is None or after is None:
         return f"{old or 'nothing'} -> {new or 'nothing'}"
-    share = f" ({100.0 * (after / before - 1.0):+.2g} %)" if before and old != new and not old.isdigit() else ""
+    share = f" ({_share(after / before - 1.0)} %)" if before and old != new and not old.isdigit() else ""
     digits = next((n for n in (6, 9, 12) if f"{before:.{n}g}" != f"{after:.{n}g}"), 17)
     return f"{before:.{digits}g} -> {after:.{digits}g}{share}"
+
+
+def _share(change: float) -> str:
+    """A change over what was before [%]: two digits, without a power of ten where it is large."""
+    percent = 100.0 * change
+    return f"{percent:+.0f}" if abs(percent) >= 10.0 else f"{percent:+.2g}"
 
 
 def _shown(value: Any) -> str:

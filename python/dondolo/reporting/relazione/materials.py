@@ -87,8 +87,11 @@ def _masonry(document: Document) -> list[_Row]:
         rows[-1] = (rows[-1][0], "compressive_strength", rows[-1][2])
     given = [one.check._given_factor for one in several]
     if given != factors:
-        rows.append((document.text(_("confidence factor FC of the level of knowledge")), "", [*map(number, given)]))
-    return [*rows, (document.text(_("confidence factor FC of the check")), "knowledge_factor", [*map(number, factors)])]
+        known = document.text(_("confidence factor FC of the level of knowledge"))
+        rows.append((known, "knowledge_factor", [*map(number, given)]))
+    # That of the check is the one that was given, or follows from it
+    field = "knowledge_factor" if given == factors else ""
+    return [*rows, (document.text(_("confidence factor FC of the check")), field, [*map(number, factors)])]
 
 
 def _densities(wall: Chain) -> Piece:

@@ -345,7 +345,7 @@ def modelling(document: Document) -> list[Block]:
             " of freedom: the positions of all bodies follow from the joints and from the rotation of one. {alpha}"
             " follows from virtual work of all weights and forces, {d0} from the finite displacements of the bodies,"
             " with the mean of C8.7.1.4 over all weights as the control point. No body slides, and no hinge is crushed"
-            " beyond its place. The code does not look for weaker hinges."
+            " beyond its place. The check looks for no hinges but those given."
         )
         blocks.append(document.say(words, alpha=symbol_of("alpha_0"), d0=symbol_of("d_0*")))
         blocks += document.written("chain_hinges", _("why these hinges are the weakest, and others that were tried"))
