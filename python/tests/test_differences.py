@@ -33,9 +33,10 @@ def runs(records, tmp_path_factory):
         ("2.0", "2.36", "2 -> 2.36 (+18 %)"),
         ("0.5", "0.0", "0.5 -> 0 (-100 %)"),
         ("0.5", "10.0", "0.5 -> 10 (+1900 %)"),
+        ("2e-15", "0.5", "2e-15 -> 0.5 (+2.5e+16 %)"),
     ],
 )
-def test_shares_have_no_powers_of_ten(old, new, words):
+def test_shares_are_short(old, new, words):
     assert _change(old, new) == words
 
 

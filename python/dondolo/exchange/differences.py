@@ -221,9 +221,9 @@ def _change(old: str, new: str) -> str:
 
 
 def _share(change: float) -> str:
-    """A change over what was before [%]: two digits, without a power of ten where it is large."""
+    """A change over what was before [%]: with a power of ten only where that was next to nothing."""
     percent = 100.0 * change
-    return f"{percent:+.0f}" if abs(percent) >= 10.0 else f"{percent:+.2g}"
+    return f"{percent:+.0f}" if 10.0 <= abs(percent) < 1e6 else f"{percent:+.2g}"
 
 
 def _shown(value: Any) -> str:
