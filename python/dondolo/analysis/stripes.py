@@ -73,8 +73,8 @@ class Stripes(Outcomes, Shown, Saved):
         EDPs between which the last digit of the input decides, equal but for `Certified.NOT_COMPUTABLE`; None unless
         certified.
     edp_rounded : ndarray, shape (levels, histories), or None
-        EDPs with every sample of the records moved within half a unit of its last printed digit; NaN where a record does
-        not run or has no printed digits; None unless certified.
+        EDPs with every sample of the records moved within half a unit of its last printed digit; NaN where a record
+        does not run or has no printed digits; None unless certified.
     uplift : ndarray of bool, shape (levels, histories), or None
         Whether the ground accelerates downwards by g or more at some instant, as `Response.uplift`; None without
         vertical motion.

@@ -164,7 +164,7 @@ def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) 
     counts = [(say(_CERTIFIED[kind]), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
     if stripes.edp_rounded is not None:
         changed, known = stripes.rounding_changes()
-        among = pieces("{changed} of {known}", changed=whole(changed), known=whole(known)) if known else say("not known")
+        among = pieces("{changed} of {known}", changed=whole(changed), known=whole(known)) if known else say("unknown")
         counts.append((say("outcomes that the rounding of the records changes"), among))
     return {"counts": counts, "levels": Table.of(columns), "medians": shown(medians, stripes.im)}
 
