@@ -133,7 +133,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
 def _within_rounding(
     stripes: Stripes, handles: tuple[Handle, Handle], numbers: Any, factors: FloatArray, threads: int
 ) -> FloatArray:
-    """EDPs of histories of records, numbered from 1, that are moved within the rounding of their print; NaN: not known."""
+    """EDPs of histories of records, numbered from 1, moved within the rounding of their print; NaN: not known."""
     wall, suite = handles
     with Stoppable():
         edp, failure = _core.histories.run_rounded(
