@@ -147,8 +147,8 @@ contains
       call report(error, failure)
    end subroutine run_scaled
 
-   !> EDPs of k histories with every sample of their records moved within half a unit of its last printed digit; negative where it is
-   !> not known how the record is printed
+   !> EDPs of k histories with every sample of their records moved within half a unit of its last printed digit; negative where it
+   !> is not known how the record is printed
    subroutine run_rounded(walls, suite, record, scale, k, engine, threads, rtol, atol, edp_limit, edp, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
@@ -160,6 +160,7 @@ contains
       type(wall_type), pointer :: wall(:)
       type(suite_type), pointer :: records
       type(solver_type) :: solver
+      type(ensemble_type) :: ensemble
       real(c_double), allocatable :: found(:)
       type(error_type), allocatable :: error
       integer :: i
@@ -176,7 +177,11 @@ contains
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)
       end do
-      if (.not. allocated(error)) call run_within_rounding(found, wall(1), records%records, record, scale, solver, threads, error)
+      if (.not. allocated(error)) then
+         ensemble%record = record
+         ensemble%scale = scale
+         call run_within_rounding(found, wall(1), records%records, ensemble, solver, threads, error)
+      end if
       if (.not. allocated(error)) call check_interrupt(error)
       if (.not. allocated(error)) edp = found
       call report(error, failure)

@@ -83,9 +83,9 @@ contains
                stripes%certified(i, j) = certificates(k)%certified_type
             end do
          end do
-         call run_rounded(rounded, wall, study%suite%records, pack(spread(stripes%record, 2, size(stripes%levels)), stripes%ran), &
-            & pack(spread(real(stripes%polarity, wp), 2, size(stripes%levels))*stripes%scale, stripes%ran), study%solver, &
-            & study%threads, error, progress)
+         ensemble%record = pack(spread(stripes%record, 2, size(stripes%levels)), stripes%ran)
+         ensemble%scale = pack(spread(real(stripes%polarity, wp), 2, size(stripes%levels))*stripes%scale, stripes%ran)
+         call run_rounded(rounded, wall, study%suite%records, ensemble, study%solver, study%threads, error, progress)
          if (allocated(error)) return
          stripes%certified%rounded = unpack(rounded, stripes%ran, not_known)
       end associate

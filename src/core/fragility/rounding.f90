@@ -21,15 +21,14 @@ contains
 
    !> Run histories with every sample of their records moved at random within half a unit of its last digit; the factors on the
    !> records stay
-   subroutine run_rounded(edp, wall, records, record, scale, solver, threads, error, progress)
+   subroutine run_rounded(edp, wall, records, ensemble, solver, threads, error, progress)
       !> EDPs, one for each history; `not_known` where it is not known how the record is printed
       real(wp), allocatable, intent(out) :: edp(:)
       type(wall_type), intent(in) :: wall
       !> Accelerograms of the ground
       type(record_type), intent(in) :: records(:)
-      !> Record of each history, and the factor on it, negative to reverse it
-      integer, intent(in) :: record(:)
-      real(wp), intent(in) :: scale(:)
+      !> The histories: records and factors
+      type(ensemble_type), intent(in) :: ensemble
       !> Engine, tolerances and limit; errors are not estimated
       type(solver_type), intent(in) :: solver
       !> Number of threads; 0: all that OpenMP gives
@@ -43,28 +42,28 @@ contains
       type(suite_type), target :: ground
       type(suite_type), pointer :: on_ground, motions
       type(floors_type), target :: floors
-      type(ensemble_type) :: ensemble
+      type(ensemble_type) :: known
       type(solver_type) :: once
       logical, allocatable :: is_known(:), runs(:)
       integer :: i, place
 
-      allocate (edp(size(record)), source=not_known)
+      allocate (edp(size(ensemble%record)), source=not_known)
       allocate (moved(size(records)), is_known(size(records)))
       do i = 1, size(records)
          call move_within_rounding(records(i), moved(i), is_known(i))
       end do
-      runs = is_known(record)
+      runs = is_known(ensemble%record)
       if (.not. any(runs)) return
       call new_suite(ground, moved, threads)
       on_ground => ground
       motions => ground
       if (allocated(wall%building)) call floors%take(wall%building, on_ground, threads, place, motions)
-      ensemble%record = pack(record, runs)
-      ensemble%scale = pack(scale, runs)
+      known%record = pack(ensemble%record, runs)
+      known%scale = pack(ensemble%scale, runs)
       once = solver
       once%estimate_error = .false.
-      call run_ensemble(ensemble, wall%mechanism, motions, once, threads, error, progress)
-      if (.not. allocated(error)) edp = unpack(ensemble%response%edp, runs, edp)
+      call run_ensemble(known, wall%mechanism, motions, once, threads, error, progress)
+      if (.not. allocated(error)) edp = unpack(known%response%edp, runs, edp)
    end subroutine run_rounded
 
 end module dondolo_fragility_rounding

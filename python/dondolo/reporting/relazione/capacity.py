@@ -57,14 +57,20 @@ def end_of(document: Document, one: Subject) -> list[Block]:
     numbers: list[Any] = [shown(sums.weights, moment), " - ", shown(sums.thrusts, moment)]
     total, first, second = _sum("P", "z"), shown(sums.first, moment), shown(sums.second, one.unit("N m2/m"))
     lowered, lowered_numbers = _lowered(sums, with_ties=False)
+    words = _(
+        "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
+        " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}:"
+    )
+    if parts_of(one.wall, "ties"):
+        words = _(
+            "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
+            " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
+            " hold no longer:"
+        )
     return [
         *_set_back(one, sums),
         document.say(
-            _(
-                "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
-                " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
-                " hold no longer:"
-            ),
+            words,
             theta=_THETA,
             arm=(symbol_of("e"), " = ", symbol_of("d"), " - ", symbol_of("u")),
             hinge=symbol_of("u"),

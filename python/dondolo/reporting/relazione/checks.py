@@ -334,6 +334,13 @@ def _steps(document: Document, one: Subject, row: SheetRow) -> list[Block]:
             symbol = "ζ_E"
         elif row.quantity == "spectral_demand":
             blocks += demand_of(document, one, row)
+    elif row.quantity == "governing_t0":
+        periods = [one.check.value("mechanism", "", name) for name in ("shortest_t0", "longest_t0")]
+        words = _("Of all periods from {shortest} to {longest}, the demand is greatest at {symbol} = {period}.")
+        shortest, longest, period = (number(value, 4, " s") for value in (*periods, row.value))
+        blocks.append(
+            document.say(words, shortest=shortest, longest=longest, symbol=symbol_of("T_0,gov"), period=period)
+        )
     elif (row.method, row.quantity) == ("linear", "floor_pga"):
         blocks += peak_of(document, one, row)
     if row.numbers and row.quantity not in _AGAIN:

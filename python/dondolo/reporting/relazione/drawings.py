@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -260,7 +260,10 @@ def _without(one: Subject, name: str) -> MasonryWall:
     left_out = ties_left_out(one, name)
     ties = [tie for place, tie in enumerate(parts_of(one.wall, "ties")) if f"tie {place + 1}" not in left_out]
     assert isinstance(one.wall, MasonryWall)
-    wall = replace(one.wall, ties=ties)  # type: ignore[call-arg]
+    has_plates = any(tie.plate_width is not None or tie.plate_diameter is not None for tie in ties)
+    # Without plates the strengths of the masonry behind them are refused.
+    masonry = [field.name for field in fields(one.wall) if field.name.startswith("masonry_") and not has_plates]
+    wall = replace(one.wall, ties=ties, **dict.fromkeys(masonry))  # type: ignore[call-arg]
     hinges = [row.value for row in one.check.rows if (row.method, row.item, row.quantity) == ("untied", name, "hinge")]
     return replace(wall, hinge=hinges[0]) if hinges else wall  # type: ignore[call-arg]
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from dondolo._fortran.checks import CalculationItem
 from dondolo._fortran.walls import WALL_ABSENT
 from dondolo.checks.ntc import CodeCheck
+from dondolo.checks.side_by_side import ties_not_counted
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.walls.parts import Tie, parts_of
 
@@ -116,8 +117,7 @@ def taken_of(one: Subject, state: str) -> str:
 
 def without_of(one: Subject, state: str) -> str:
     """The ties that the ratio of a nonlinear check does not count, such as 'tie 1'; '' if it counts all."""
-    less, tied = (one.check._row("nonlinear", state, name) for name in ("less_zeta", "tied_zeta"))
-    return less.item if less is not None and tied is not None and less.value > tied.value else ""
+    return ties_not_counted(one.check, state)
 
 
 def ties_left_out(one: Subject, name: str) -> frozenset[str]:

@@ -15,7 +15,7 @@ module dondolo_case_check_rows
    private
 
    public :: check_wall, count_verdict, put_check, put_item, put_sheet_row, verdicts_type
-   public :: check_methods, check_states, shown_verdicts
+   public :: check_methods, check_states, shown_verdicts, verdict_type
 
    !> The kinematic checks: method and limit state
    character(len=*), parameter :: check_methods(4) = [character(len=9) :: 'linear', 'linear', 'nonlinear', 'nonlinear'], &
@@ -31,6 +31,8 @@ module dondolo_case_check_rows
    type :: verdict_type
       !> Name of the wall
       character(len=:), allocatable :: name
+      !> Its mechanism
+      character(len=:), allocatable :: mechanism
       !> Multiplier alpha_0
       real(wp) :: multiplier = 0.0_wp
       !> Capacity / demand of each check
@@ -202,6 +204,7 @@ contains
       if (verdicts%checked > shown_verdicts) return
       associate (verdict => verdicts%first(verdicts%checked))
          verdict%name = row%wall%name()
+         verdict%mechanism = row%wall%mechanism_name()
          verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
          verdict%ratio = ratio
          verdict%is_applicable = is_applicable
