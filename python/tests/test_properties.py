@@ -13,7 +13,8 @@ import dondolo as dd
 from dondolo._fortran.library import properties
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS
 from dondolo.walls.chains import TABLES
-from dondolo.walls.mechanisms import CHECK_TERMS, MECHANISMS, TERMS
+from dondolo.walls.mechanisms import MECHANISMS
+from dondolo.walls.tabulated import CHECK_TERMS, TERMS
 from dondolo.walls.parts import KINDS, PLACES
 from dondolo.walls.table import numbered
 

@@ -38,7 +38,7 @@ from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.reporting.units import UNITS, Unit
 from dondolo.walls.chains import TABLES, Chain
-from dondolo.walls.mechanisms import TERMS, TabulatedWall
+from dondolo.walls.tabulated import TERMS, TabulatedWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
