@@ -72,7 +72,7 @@ def test_walls(kind):
         assert description.startswith(sentence(row)), (description, sentence(row))
         kinds = (
             "sequence of float"
-            if row.name in ("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", *TABLES)
+            if row.name in ("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", "axis_x", "axis_z", *TABLES)
             else "{"
             if row.choices
             else "str"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, InitVar, dataclass
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from dondolo._base.arguments import argument_error, as_number
 from dondolo._fortran.walls import WallData, bending_period
@@ -24,6 +24,9 @@ from dondolo.walls.parts import (
 )
 from dondolo.walls.tabulated import TabulatedWall
 from dondolo.walls.wall import DEFAULT, MasonryWall, Terms, Wall, upload
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # What the package exports of the walls: a new mechanism is added here alone
 __all__ = ["Chain", "Corner", "FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
@@ -139,6 +142,11 @@ class OneSidedWall(BlockWall):
         Heights of these corners above the base [m]. 'default' is then 'impulse', the only model of restitution.
     openings : sequence of Opening, optional
         Doors and windows in this elevation.
+    axis_x : sequence of float, optional
+        Places along the facade of two points of the line about which what is above it turns [m]: a panel, whose heights
+        are distances from this line, in the face. Loads, masses and thrusts then have an x.
+    axis_z : sequence of float, optional
+        Heights of these two points above the base [m].
     masonry_compression : float, optional
         Mean strength of the masonry in compression at plates of ties; compressive_strength if not given [Pa].
     masonry_shear : float, optional
@@ -191,6 +199,8 @@ class OneSidedWall(BlockWall):
     elevation_x: Sequence[float] | None = None
     elevation_z: Sequence[float] | None = None
     openings: Sequence[Opening] = ()
+    axis_x: Sequence[float] | None = None
+    axis_z: Sequence[float] | None = None
     masonry_compression: float | None = None
     masonry_shear: float | None = None
     masonry_tension: float | None = None
@@ -204,6 +214,33 @@ class OneSidedWall(BlockWall):
 
     def __post_init__(self, hinge_level: float | Sequence[float] | None, hinge_at: str | None) -> None:
         self._understand(hinge_level=hinge_level, hinge_at=hinge_at)
+
+    def plot_elevation(self, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw the elevation of the wall with its openings, and the line that it turns about.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        **options
+            As for `plot`.
+
+        Returns
+        -------
+        Axes
+            Metres, to scale. What is below the line stays.
+
+        Raises
+        ------
+        InputError
+            A wall without an elevation.
+        """
+        from dondolo.figures.options import Options
+        from dondolo.walls.drawing_elevation import draw_elevation
+
+        if self.elevation_x is None:
+            raise argument_error("not_given", "elevation_x", ": the wall has no elevation to draw")
+        return draw_elevation(self, ax, Options(options))
 
 
 @part_of_results

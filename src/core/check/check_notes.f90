@@ -93,7 +93,8 @@ contains
       integer :: i
 
       if (.not. sheet%value('mechanism', '', 'friction_needed') >= 0.0_wp) call notes%add(warning_type(sliding_unknown), &
-         & 'the forces at the hinges of a table or a chain are not known: whether they slide before they turn is not checked')
+         & 'the forces at the hinges of a table, a chain or an inclined axis are not known: whether they slide before they '// &
+         & 'turn is not checked')
       friction = sheet%value('mechanism', '', 'friction')
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))

@@ -16,6 +16,7 @@ from dondolo.reporting.relazione.capacity import capacity_of, displacement_of, e
 from dondolo.reporting.relazione.chains import scheme
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_capacity, draw_floor, draw_table, draw_wall
+from dondolo.reporting.relazione.elevations import elevation_of
 from dondolo.reporting.relazione.floors import building_in, demand_of, peak_of
 from dondolo.reporting.relazione.formulas import COHERENT, FIGURES, formulas_of
 from dondolo.reporting.relazione.subjects import Subject
@@ -91,6 +92,7 @@ def mechanism(document: Document) -> list[Block]:
                 document.text(_("The wall at rest with its loads, and displaced about its hinge.")),
             )
         )
+        blocks += elevation_of(document, one, name)
     return [*blocks, *_reactions(document)]
 
 

@@ -180,7 +180,7 @@ MECHANISMS = {
     "two_block": "flessione verticale",
     "corner": "ribaltamento del cantonale",
     "tabulated": "cinematismo tabellato",
-    "chain": "catena di corpi rigidi",
+    "chain": "catena cinematica di corpi rigidi",
 }
 
 _NO_CURVE = "nessuna curva di fragilità per la parete {wall}: "
@@ -196,6 +196,8 @@ WARNINGS = {
     "overlap_above_thickness": "parete {wall}: ammorsamento maggiore dello spessore della parete ortogonale",
     "mass_beside_size": "parete {wall}: la massa divisa per altezza e spessore è {density} kg/m³, limite usuale"
     " {limit}: unità di misura da controllare",
+    "restitution_of_solid": "parete {wall}: il coefficiente di restituzione è quello di un blocco pieno, benché la"
+    " frazione di muratura cambi tra i tratti; quello dell'urto con le masse al loro posto è {impulse}",
     "levels_above_usual": "livelli fino a {largest} di {im}, oltre il limite usuale {limit}: unità di misura da"
     " controllare",
     "record_without_motion": "accelerogramma {record}: accelerazione di picco nulla",
@@ -288,8 +290,8 @@ WARNINGS = {
     " per lo SLO non c'è una formula per i meccanismi locali",
     "slides_first": "{item}: scorre prima di ruotare, perché con un attrito {friction} non ha quello necessario"
     " all'attivazione, {friction_needed}, per il moltiplicatore {alpha_0}",
-    "sliding_unknown": "le forze alle cerniere di una tabella o di una catena cinematica non sono note: non si"
-    " verifica se scorrono prima di ruotare",
+    "sliding_unknown": "le forze alle cerniere di una tabella, di una catena cinematica o di un asse inclinato non"
+    " sono note: non si verifica se scorrono prima di ruotare",
     "friction_not_given": "{item}: per ruotare e non scorrere serve all'attivazione un attrito {friction_needed}; non"
     " si verifica se c'è, perché l'attrito non è assegnato",
     "perhaps_free": "la parete comincia sopra il suolo o finisce sopra l'edificio, e non la trattengono né catene né"
