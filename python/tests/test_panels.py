@@ -105,6 +105,7 @@ def test_history(engine):
     assert found.edp * wall.capacity_angle == pytest.approx(0.1424319422701765, abs=1e-11)
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_vertical_motion_shakes_its_share_of_gravity():
     """A record whose vertical component halves gravity for good is the same panel with half of gravity."""
     time = np.arange(400) * 0.01
@@ -181,7 +182,7 @@ def test_drawings():
     assert section.get_ylim()[1] > wall.height
     crack = facade(axis_x=[0.0, 6.0], axis_z=[5.0, 3.4])
     above = turning(crack, outline_of(crack))
-    assert above.tolist() == [[6.0, 3.4], [6.0, 6.5], [0.0, 6.5], [0.0, 5.0]]
+    np.testing.assert_allclose(above, [[6.0, 3.4], [6.0, 6.5], [0.0, 6.5], [0.0, 5.0]], rtol=0.0, atol=1e-12)
     line = facade().plot_elevation().lines[0]
     assert line.get_xydata().tolist() == [[0.0, 0.0], [6.0, 0.0]]
     with pytest.raises(dd.errors.InputError, match="no elevation to draw"):
@@ -227,6 +228,36 @@ def test_refusals(more, match):
 def test_an_axis_needs_an_elevation():
     with pytest.raises(dd.errors.InputError, match="axis_x: only with elevation_x"):
         dd.OneSidedWall(3.0, 0.25, axis_x=[0.0, 1.0], axis_z=[0.0, 0.5])
+
+
+def half(**more):
+    return gable(half_gable=True, **more)
+
+
+def test_half_of_a_gable_has_a_check_alone():
+    """Its sheet is that of the panel, with how far both halves would overlap: 50 mm at 0.1 rad."""
+    check, panel = dd.check_ntc(half(), SITE), dd.check_ntc(gable(), SITE)
+    for name in ("alpha_0", "mass", "mass_ratio", "d_0"):
+        assert check.value("mechanism", "", name) == panel.value("mechanism", "", name)
+    overlap = check.value("mechanism", "", "halves_overlap")
+    assert overlap == pytest.approx(2.0 * 0.39 * math.sin(BETA) * half().capacity_angle, rel=1e-12)
+    assert overlap * 0.1 / half().capacity_angle == pytest.approx(0.050, abs=1e-3)
+    assert "halves_jam" in {note.code for note in check.notes}
+    assert "halves_jam" not in {note.code for note in panel.notes}
+    assert panel._row("mechanism", "", "halves_overlap") is None
+    records = dd.example_records()[:2]
+    runs = (
+        lambda: dd.simulate(half(), records[0]),
+        lambda: dd.multiple_stripe(half(), records, [0.2, 0.4], progress=False),
+        lambda: dd.typology(dd.Population([gable(name="a"), half(name="b")]), records, [0.2, 0.4], progress=False),
+    )
+    for run in runs:
+        with pytest.raises(dd.errors.InputError, match=r"half_gable: has a check and no time histories, .* jam"):
+            run()
+    with pytest.raises(dd.errors.InputError, match="half_gable: only with an inclined axis"):
+        half(axis_z=[0.0, 0.0])
+    with pytest.raises(dd.errors.InputError, match=r"half_gable = 0\.5: must be 1 or 0"):
+        dd.OneSidedWall(3.0, 0.25, half_gable=0.5)
 
 
 def test_what_rests_on_nothing_above_the_axis():

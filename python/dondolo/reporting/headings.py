@@ -261,6 +261,7 @@ COLUMNS = {
     "elevation_z": "quota del vertice del prospetto",
     "axis_x": "posizione del punto dell'asse",
     "axis_z": "quota del punto dell'asse",
+    "half_gable": "mezzo timpano",
     "opening_x": "posizione dell'apertura",
     "opening_z": "quota dell'apertura",
     "opening_width": "larghezza dell'apertura",

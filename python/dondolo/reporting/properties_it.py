@@ -111,6 +111,7 @@ MEANINGS = {
     "opening_height": "altezza di ciascuna",
     "axis_x": "posizioni lungo la facciata di due punti della retta attorno a cui ruota ciò che le sta sopra",
     "axis_z": "quote di questi due punti sopra la base",
+    "half_gable": "il pannello è una delle due metà di un timpano che il colmo spinge fuori?",
     "load_x": "posizione di ogni carico lungo la facciata, con axis_x",
     "inertia_x": "posizione di ciascuna lungo la facciata, con axis_x",
     "thrust_x": "posizione di ogni spinta lungo la facciata, con axis_x",

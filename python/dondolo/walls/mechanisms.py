@@ -147,6 +147,8 @@ class OneSidedWall(BlockWall):
         are distances from this line, in the face. Loads, masses and thrusts then have an x.
     axis_z : sequence of float, optional
         Heights of these two points above the base [m].
+    half_gable : bool, optional
+        Is the panel one half of a gable that its ridge pushes out? It then has a check, and no time histories.
     masonry_compression : float, optional
         Mean strength of the masonry in compression at plates of ties; compressive_strength if not given [Pa].
     masonry_shear : float, optional
@@ -201,6 +203,7 @@ class OneSidedWall(BlockWall):
     openings: Sequence[Opening] = ()
     axis_x: Sequence[float] | None = None
     axis_z: Sequence[float] | None = None
+    half_gable: bool | None = None
     masonry_compression: float | None = None
     masonry_shear: float | None = None
     masonry_tension: float | None = None

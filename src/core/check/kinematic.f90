@@ -66,6 +66,8 @@ module dondolo_check_kinematic
       real(wp) :: mass_ratio = 0.0_wp
       !> Displacement at which the multiplier vanishes d_0 [m]
       real(wp) :: end_displacement = 0.0_wp
+      !> How far both halves of a gable would overlap there [m]; 0: it is no half
+      real(wp) :: overlap = 0.0_wp
       !> Displacement at which a load loses its seat [m]; huge: none does
       real(wp) :: unseating = huge(1.0_wp)
       !> Displacement at which ties break that carry more than half of the greatest multiplier [m]; huge: none do
@@ -155,6 +157,11 @@ contains
       select type (model => wall%model)
       type is (one_block_model_type)
          call take_block(kinematic, model%body)
+         ! Each half goes beyond the plane of the axis by (t - u) sin beta for a unit of rotation, at its inner face.
+         associate (actions => model%body%actions, t => model%body%sections(1)%thickness)
+            if (wall%mechanism%is_static) kinematic%overlap = 2.0_wp*(t - actions%hinge)*sqrt(1.0_wp - actions%gravity_share**2) &
+               & *wall%mechanism%capacity
+         end associate
       type is (two_block_model_type)
          select type (mechanism => wall%mechanism)
          type is (two_block_type)

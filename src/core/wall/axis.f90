@@ -9,7 +9,7 @@
 module dondolo_wall_axis
    use dondolo_base_error, only : not_given, not_together, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
-   use dondolo_base_property, only : choices_length, is_list, most_choices, property_type
+   use dondolo_base_property, only : choices_length, is_list, is_logical, most_choices, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_lists, only : take
@@ -32,7 +32,10 @@ module dondolo_wall_axis
       & property_type('axis_z', is_list, unit='m', owners=one_sided, optional=.true., smallest=-1.0e3_wp, largest=1.0e3_wp, &
       &   usual_least=-1.0e3_wp, example='6.0, 7.5', one_each=.true., not_with='spring, distributed_spring, free, young_modulus', &
       &   because='which are of a wall that turns about its base', &
-      &   meaning='heights of these two points above the base')]
+      &   meaning='heights of these two points above the base'), &
+      & property_type('half_gable', is_logical, owners=one_sided, optional=.true., example='.true.', &
+      &   meaning='is the panel one half of a gable that its ridge pushes out?', &
+      &   more='it then has a check, and no time histories')]
 
    !> A line
    type :: axis_type
@@ -106,6 +109,17 @@ contains
       type(axis_type) :: axis
       integer :: i
 
+      if (input%has('half_gable')) then
+         axis = axis_of(input)
+         ! Cells of tables may be any number
+         if (all(abs(input%number('half_gable') - [0.0_wp, 1.0_wp]) > 0.0_wp)) then
+            call problems%note('half_gable = '//to_text(input%number('half_gable'))//': must be 1 or 0, .true. or .false. in a '// &
+               & 'case', out_of_range, 'half_gable')
+         else if (input%number('half_gable') > 0.0_wp .and. .not. axis%is_inclined()) then
+            call problems%note('half_gable: only with an inclined axis, from a point on the axis of the gable to a roof slope', &
+               & not_together, 'half_gable')
+         end if
+      end if
       if (.not. (input%has(names(1)) .or. input%has(names(2)))) return
       do i = 1, 2
          associate (count => size(input%list(names(i))))

@@ -383,6 +383,7 @@ contains
          call new_loaded_block(loaded, self%body%body, self%body%actions, gravity, self%two_sided, error)
          call move_alloc(loaded, mechanism)
          if (allocated(error)) return
+         mechanism%is_static = input%number('half_gable') > 0.0_wp
          if (self%two_sided) then
             impacts%impulse = two_sided_impulse(self%body)
          else

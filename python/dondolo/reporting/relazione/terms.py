@@ -96,6 +96,7 @@ MEANINGS = {
     "mass_ratio": "frazione di massa partecipante",
     "a_0": "accelerazione spettrale di attivazione",
     "d_0": "spostamento per cui il moltiplicatore si annulla",
+    "halves_overlap": "sovrapposizione delle due metà di un timpano per tale spostamento, in cui si incastrano",
     "hinge": "quota relativa della cerniera",
     "lowest_hinge": "quota relativa più bassa tra cui si cerca la cerniera più debole",
     "highest_hinge": "quota relativa più alta tra cui si cerca la cerniera più debole",
@@ -288,6 +289,9 @@ WARNINGS = {
     " che si aprono a {opening_edp}",
     "serviceability": "classe d'uso IV: il giudizio si fonda anche sullo SLD (NTC 8.3, che ne ammette livelli ridotti);"
     " per lo SLO non c'è una formula per i meccanismi locali",
+    "halves_jam": "le due metà del timpano attraversano il piano del suo asse, e per d_0* si sovrapporrebbero di"
+    " {overlap_m} m: si incastrano, per cui α_0 è a favore di sicurezza, e gli spostamenti con ciò che ne segue non sono"
+    " provati",
     "slides_first": "{item}: scorre prima di ruotare, perché con un attrito {friction} non ha quello necessario"
     " all'attivazione, {friction_needed}, per il moltiplicatore {alpha_0}",
     "sliding_unknown": "le forze alle cerniere di una tabella, di una catena cinematica o di un asse inclinato non"

@@ -239,17 +239,19 @@ contains
       !> Are forces and moments those of a whole body, and not per metre of wall?
       logical, intent(in) :: is_whole
 
-      associate (per => trim(merge('  ', '_m', is_whole)))
-         call table%put('item', trim(item%name))
-         call table%put('force_n'//per, item%force, is_given(item%force))
-         call table%put('depth_m', item%depth, is_given(item%depth))
-         call table%put('arm_m', item%arm, is_given(item%arm))
-         call table%put('lever_m', item%lever, is_given(item%lever))
-         call table%put('stabilising_nm'//per, item%stabilising, is_given(item%stabilising))
-         call table%put('overturning_nm'//per, item%overturning, is_given(item%overturning))
-         call table%put('force_lever_nm'//per, item%first, is_given(item%first))
-         call table%put('force_lever2_nm2'//per, item%second, is_given(item%second))
-      end associate
+      character(len=:), allocatable :: per
+
+      per = '_m'
+      if (is_whole) per = ''
+      call table%put('item', trim(item%name))
+      call table%put('force_n'//per, item%force, is_given(item%force))
+      call table%put('depth_m', item%depth, is_given(item%depth))
+      call table%put('arm_m', item%arm, is_given(item%arm))
+      call table%put('lever_m', item%lever, is_given(item%lever))
+      call table%put('stabilising_nm'//per, item%stabilising, is_given(item%stabilising))
+      call table%put('overturning_nm'//per, item%overturning, is_given(item%overturning))
+      call table%put('force_lever_nm'//per, item%first, is_given(item%first))
+      call table%put('force_lever2_nm2'//per, item%second, is_given(item%second))
    end subroutine put_item
 
 end module dondolo_case_check_rows
