@@ -475,14 +475,14 @@ def panel():
     figure, axes = new_axes(1, 2, (9.0, 4.4), width_ratios=(1.6, 1.0))
     wall.plot_elevation(axes[0])
     wall.plot(axes[1], rotation=0.08)
-    axes[1].set_title("normal to the line, rotated by 0.08 rad", loc="left")
+    axes[1].set_title("rotated by 0.08 rad", loc="left")
     figure.savefig(figures / "panel.png", dpi=100)
 
 
 def six_mechanisms():
     """Draw the mechanisms that are usual in practice beside each other."""
     wedge = dd.Wedge(thickness=0.45, angle=20.0, bottom=0.0, top=6.0, length=9.0)
-    band = dd.horizontal_bending(5.0, 0.5, 1900.0, thrust=25e3, hinge_depth=0.02, sides=2, restitution_value=0.7)
+    band = dd.horizontal_bending(4.0, 0.5, 1900.0, thrust=25e3, hinge_depth=0.02, sides=2, restitution_value=0.7)
     portal = dd.arch(1.75, 0.5, 180.0, voussoirs=8, pier=(1.0, 3.5), density=1900.0, sides=2, restitution_value=0.8)
     drawn = {
         "simple overturning": (dd.OneSidedWall(6.0, 0.5, hinge_depth=0.02), 0.05),
@@ -491,14 +491,16 @@ def six_mechanisms():
         ),
         "corner, on its bisector": (dd.Corner(3.2, 0.5, wing_angle=20.0, hinge_depth=0.03), 0.08),
         "vertical bending": (dd.TwoBlockWall(3.2, 0.3, hinge=0.6), 0.08),
-        "horizontal bending, in plan": (band, 0.08),
+        "horizontal bending (plan)": (band, 0.08),
         "arch on piers": (portal, 0.08),
     }  # fmt: skip
     figure, axes = new_axes(2, 3, (9.0, 7.4))
     for ax, (title, (wall, rotation)) in zip(axes.flat, drawn.items(), strict=True):
         wall.plot(ax, rotation=rotation)
         ax.set_title(title, loc="left")
-    figure.savefig(figures / "mechanisms.png", dpi=100)
+        if wall is band:
+            ax.set(xlim=(-2.0, 1.5), ylim=(-0.4, 5.2), ylabel="along the wall [m]")
+    figure.savefig(figures / "six_mechanisms.png", dpi=100)
 
 
 def processing():

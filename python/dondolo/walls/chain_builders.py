@@ -244,7 +244,8 @@ def arch(
     Raises
     ------
     InputError
-        An arch that falls by itself, or that no four hinges let sway; directions that differ by more than 2 % with `sides=2`, sizes that no arch has.
+        An arch that falls by itself, or that no four hinges let sway; directions that differ by more than 2 % with
+        `sides=2`, sizes that no arch has.
 
     Notes
     -----

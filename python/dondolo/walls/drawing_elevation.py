@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo.figures import style
+from dondolo.figures.layout import apart
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
 from dondolo.figures.wording import say
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.walls.mechanisms import OneSidedWall
+
+
+# Of loads, thrusts and ties
+_COLOURS = {"load": style.BLUE, "thrust": style.RED, "tie": style.BLACK}
 
 
 def draw_elevation(wall: OneSidedWall, ax: Axes | None, options: Options) -> Axes:
@@ -38,17 +43,25 @@ def draw_elevation(wall: OneSidedWall, ax: Axes | None, options: Options) -> Axe
     ax.plot(*ends.T, color=style.RED, linewidth=1.8, linestyle="--", label=say("hinge"), zorder=5)
     low, high = np.minimum(outline.min(axis=0), ends.min(axis=0)), np.maximum(outline.max(axis=0), ends.max(axis=0))
     wide = float(high[0] - low[0])
-    ax.set_xlim(low[0] - 0.08 * wide, high[0] + 0.34 * wide)
+    # Forces per metre have their words beside the facade
+    has_words = axis_of(wall) is None and any(parts_of(wall, of) for of in ("loads", "thrusts", "ties"))
+    ax.set_xlim(low[0] - 0.08 * wide, high[0] + (0.34 if has_words else 0.08) * wide)
     ax.set_ylim(low[1] - 0.05 * (high[1] - low[1]), high[1] + 0.14 * (high[1] - low[1]))
     size = 0.09 * float(high[1] - low[1])
-    for load in parts_of(wall, "loads"):
-        _mark(ax, wall, load, force_in_words(load), size, float(outline[:, 0].max()), "load")
-    for thrust in parts_of(wall, "thrusts"):
-        words = say("{force} thrust", force=force_in_words(thrust))
-        _mark(ax, wall, thrust, words, size, float(outline[:, 0].max()), "thrust")
-    for tie in parts_of(wall, "ties"):
-        words = say("tie {area:.3g} cm²/m", area=1e4 * tie.section)
-        _mark(ax, wall, tie, words, size, float(outline[:, 0].max()), "tie")
+    marks = [(part, force_in_words(part), "load") for part in parts_of(wall, "loads")]
+    marks += [(part, say("{force} thrust", force=force_in_words(part)), "thrust") for part in parts_of(wall, "thrusts")]
+    marks += [(part, say("tie {area:.3g} cm²/m", area=1e4 * part.section), "tie") for part in parts_of(wall, "ties")]
+    marks.sort(key=lambda mark: mark[0].height)
+    if axis_of(wall) is None:
+        levels = apart([mark[0].height for mark in marks], 0.045 * float(high[1] - low[1]))
+        for level, (part, words, kind) in zip(levels, marks, strict=True):
+            ends_x = [float(outline[:, 0].min()), float(outline[:, 0].max())]
+            ax.plot(ends_x, [part.height] * 2, color=_COLOURS[kind], linewidth=0.9, linestyle=":", zorder=6)
+            ax.annotate(words, (ends_x[1], level), (4, 0), textcoords="offset points", va="center",
+                        fontsize=theme().note, color=_COLOURS[kind], zorder=7)  # fmt: skip
+    else:
+        for part, words, kind in marks:
+            _mark(ax, part, words, size, kind)
     ax.set_aspect("equal")
     ax.set_xlabel("x [m]")
     ax.set_ylabel("z [m]")
@@ -67,27 +80,23 @@ def ends_of_axis(wall: OneSidedWall) -> Any:
         return np.array([(left, 0.0), (right, 0.0)])
     # Of a panel what lies on the line and above it, and at least the two points that are given
     on = turning(wall, outline)
-    spans = [float(np.dot(point - axis.at, axis.along)) for point in on if abs(axis.above(point)) < 1e-9 * (right - left)]
+    spans = [
+        float(np.dot(point - axis.at, axis.along)) for point in on if abs(axis.above(point)) < 1e-9 * (right - left)
+    ]
     given = np.array([wall.axis_x, wall.axis_z]).T
     spans += [float(np.dot(point - axis.at, axis.along)) for point in given]
     return np.array([axis.at + min(spans) * axis.along, axis.at + max(spans) * axis.along])
 
 
-def _mark(ax: Axes, wall: OneSidedWall, part: Any, words: str, size: float, right: float, kind: str) -> None:
-    """A force at its place; of a wall whose forces are per metre a line along its height."""
-    color = {"load": style.BLUE, "thrust": style.RED, "tie": style.BLACK}[kind]
-    look = {"fontsize": theme().note, "color": color, "zorder": 7}
-    if axis_of(wall) is None:
-        left = float(np.min(wall.elevation_x or 0.0))
-        ax.plot([left, right], [part.height] * 2, color=color, linewidth=0.9, linestyle=":", zorder=6)
-        ax.annotate(words, (right, part.height), (4, 0), textcoords="offset points", va="center", **look)
-        return
+def _mark(ax: Axes, part: Any, words: str, size: float, kind: str) -> None:
+    """A force at its place on a panel."""
+    look: dict[str, Any] = {"fontsize": theme().note, "color": _COLOURS[kind], "zorder": 7}
     at = (part.x, part.height)
     if kind == "load":
-        arrow = {"arrowstyle": "-|>", "color": color, "linewidth": 1.6}
+        arrow = {"arrowstyle": "-|>", "color": _COLOURS[kind], "linewidth": 1.6}
         ax.annotate("", at, (at[0], at[1] + size), arrowprops=arrow, zorder=6)
         ax.annotate(words, (at[0], at[1] + 0.6 * size), (6, 0), textcoords="offset points", **look)
     else:
         # It acts normal to the face.
-        ax.plot(*at, marker="x", markersize=7, color=color, zorder=6)
+        ax.plot(*at, marker="x", markersize=7, color=_COLOURS[kind], zorder=6)
         ax.annotate(words, at, (7, -10), textcoords="offset points", **look)

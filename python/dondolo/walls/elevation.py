@@ -1,4 +1,4 @@
-"""The elevation of a facade: its corners and openings, what of it turns, and heights above the line that it turns about."""
+"""The elevation of a facade: corners and openings, what of it turns, and heights above the line that it turns about."""
 
 from __future__ import annotations
 

@@ -39,7 +39,8 @@ from dondolo.walls.parts import parts_of
 
 # Displacements of the sheet, which are small
 _LENGTHS = (
-    "d_0", "halves_overlap", "tie_fracture", "displacement", "demand", "mean_displacement", "yield_displacement", "bar", "plate_width",
+    "d_0", "halves_overlap",
+    "tie_fracture", "displacement", "demand", "mean_displacement", "yield_displacement", "bar", "plate_width",
     "plate_height", "plate_diameter", "plate_thickness", "plate_needed", "masonry_thickness", "edge_distance",
 )  # fmt: skip
 # What a limit state without a hazard of its own is not to be taken for

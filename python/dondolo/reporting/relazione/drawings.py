@@ -11,6 +11,7 @@ import numpy as np
 from dondolo._fortran.checks import capacity_curve
 from dondolo.checks.plots import draw_safety
 from dondolo.figures import style
+from dondolo.figures.layout import apart
 from dondolo.figures.options import Options
 from dondolo.records.building import Building
 from dondolo.records.codes import LimitState
@@ -205,22 +206,9 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
             ax.annotate("", (x, z), (x, z + 0.09 * wall.height), arrowprops=_ARROW)
             labels.append((z + 0.06 * wall.height, words))
     labels.sort()
-    for z, (_level, words) in zip(_apart([z for z, _ in labels], _ROW * wall.height), labels, strict=True):
+    for z, (_level, words) in zip(apart([at for at, _words in labels], _ROW * wall.height), labels, strict=True):
         ax.annotate(words, (right + 0.06, z), (4, 0), textcoords="offset points", fontsize=_WORDS, va="center")
     ax.annotate(one.unit("N/m").name, (right + 0.9 * reach, -0.11 * wall.height), ha="center", fontsize=_WORDS)
-
-
-def _apart(levels: list[float], gap: float) -> list[float]:
-    """Levels in rising order that are at least a gap apart, as near to given ones as that allows."""
-    groups: list[list[float]] = []
-    for place, level in enumerate(levels):
-        # Where levels are too close their mean keeps its place
-        groups.append([level - place * gap, 1.0])
-        while len(groups) > 1 and groups[-2][0] > groups[-1][0]:
-            mean, count = groups.pop()
-            groups[-1] = [(groups[-1][0] * groups[-1][1] + mean * count) / (groups[-1][1] + count), groups[-1][1] + count]
-    means = [mean for mean, count in groups for _ in range(round(count))]
-    return [mean + place * gap for place, mean in enumerate(means)]
 
 
 def draw_capacity(document: Document, one: Subject) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -102,15 +103,15 @@ def _sizes(document: Document, ax: Axes, outline: Any, room: float) -> None:
     y = low[1] - 0.8 * room
     ax.annotate("", (low[0], y), (high[0], y), arrowprops=_SIZE)
     words = document.language.decimal(f"{_CENTIMETRES * (high[0] - low[0]):.5g}")
-    ax.annotate(f"{words} cm", (0.5 * (low[0] + high[0]), y), (0, -3), textcoords="offset points", ha="center", va="top",
-                fontsize=_WORDS)  # fmt: skip
+    middle = (0.5 * (low[0] + high[0]), y)
+    ax.annotate(f"{words} cm", middle, (0, -3), textcoords="offset points", ha="center", va="top", fontsize=_WORDS)
     x = low[0] - 0.8 * room
     # Heights that are closer than their words are one
     levels = [float(low[1])]
     for level in np.unique(outline[:, 1]):
         if level - levels[-1] > 0.5 * room:
             levels.append(float(level))
-    for bottom, top in zip(levels[:-1], levels[1:], strict=True):
+    for bottom, top in itertools.pairwise(levels):
         ax.annotate("", (x, bottom), (x, top), arrowprops=_SIZE)
         words = document.language.decimal(f"{_CENTIMETRES * (top - bottom):.5g}")
         ax.annotate(words, (x, 0.5 * (bottom + top)), (-3, 0), textcoords="offset points", rotation=90, ha="right",

@@ -290,8 +290,8 @@ WARNINGS = {
     "serviceability": "classe d'uso IV: il giudizio si fonda anche sullo SLD (NTC 8.3, che ne ammette livelli ridotti);"
     " per lo SLO non c'è una formula per i meccanismi locali",
     "halves_jam": "le due metà del timpano attraversano il piano del suo asse, e per d_0* si sovrapporrebbero di"
-    " {overlap_m} m: si incastrano, per cui α_0 è a favore di sicurezza, e gli spostamenti con ciò che ne segue non sono"
-    " provati",
+    " {overlap_m} m: si incastrano, per cui il moltiplicatore è a favore di sicurezza, e gli spostamenti con ciò che ne"
+    " segue non sono provati",
     "slides_first": "{item}: scorre prima di ruotare, perché con un attrito {friction} non ha quello necessario"
     " all'attivazione, {friction_needed}, per il moltiplicatore {alpha_0}",
     "sliding_unknown": "le forze alle cerniere di una tabella, di una catena cinematica o di un asse inclinato non"
