@@ -235,7 +235,7 @@ SUPPORTS = {
     " sommità si muove diversamente",
     "ties_to_building": "le catene {walls} sono ancorate all'edificio, e si muovono con esso",
     "ties_to_base": "le catene {walls} sono ancorate a ciò su cui poggia la base",
-    "corner_one_direction": "tutti i modi dell'edificio muovono il cantonale {walls} lungo la bisettrice; modi delle"
+    "corner_one_direction": "tutti i modi dell'edificio {walls} agiscono lungo la bisettrice del cantonale; modi delle"
     " due direzioni ne muoverebbero ciascuno una componente",
 }
 

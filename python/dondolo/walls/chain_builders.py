@@ -288,8 +288,8 @@ def arch(
     multipliers = [one.multiplier for one in found]
     if not min(multipliers) < math.inf:
         raise argument_error(
-            "out_of_range", "embrace", f" = {embrace:g}: an arch so shallow and {thickness:g} m thick has no four hinges"
-            f" among its {joints} joints that open together: it does not sway, and slides or is crushed first")  # fmt: skip
+            "out_of_range", "embrace", f" = {embrace:g}: an arch so shallow and {thickness:g} m thick has no four"
+            f" hinges among its {joints} joints that open together: it slides or is crushed first")  # fmt: skip
     if min(multipliers) <= 0.0:
         raise argument_error(
             "not_at_rest", "thickness", f" = {thickness:g}: the arch falls by itself, its multiplier is"
