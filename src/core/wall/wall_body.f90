@@ -477,7 +477,10 @@ contains
          faces = faces_at(wall%sections, height)
          if (allocated(wall%wedges)) faces(2) = faces(2) + wedge_reach(wall%wedges, height)
          if (allocated(wall%corner) .and. faces(1) <= faces(2)) faces(2) = corner_reach(wall%corner, height)
-         if (faces(1) > faces(2)) then
+         if (faces(1) > faces(2) .and. input%has('axis_x')) then
+            call problems%note(what//' '//to_text(number)//': lies '//rounded(height)//' m above the axis, must lie between 0 '// &
+               & 'and '//rounded(tall)//' m, the panel', out_of_range, what//'_height')
+         else if (faces(1) > faces(2)) then
             call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
                & rounded(tall)//' m, the wall'//trim(unit_question('m', height, 0.0_wp, tall, 0.5_wp*tall)), out_of_range, &
                & what//trim(merge('_top   ', '_height', what == 'distributed_spring')))
