@@ -51,14 +51,14 @@ def panels(document: Document) -> list[Block]:
         if axis is None or not axis.along[1]:
             continue
         words = _(
-            "{wall}: the panel turns about a line in its face that rises at {angle} degrees. Heights are distances from"
+            "{wall}: the panel turns about a line in its face, inclined at {angle} degrees. Heights are distances from"
             " this line, in the face; of the weights the part cos {beta} = {share} acts in the plane of the motion,"
             " which is normal to the line, so that the stabilising moment of a weight is {force} {arm} cos {beta}. The"
             " panel leans on nothing, and the building moves its axis alone. Friction along the line is not checked."
         )
         values = {
             "wall": name,
-            "angle": number(math.degrees(math.atan2(axis.along[1], axis.along[0])), 4),
+            "angle": number(math.degrees(math.atan2(abs(axis.along[1]), axis.along[0])), 4),
             "beta": Symbol("β"),
             "share": number(float(axis.along[0]), 5),
             "force": symbol_of("P"),
