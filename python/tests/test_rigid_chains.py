@@ -198,7 +198,7 @@ def test_histories(name, engine, chains):
 
 @pytest.mark.parametrize("name", ["horizontal", "arch", "portal", "cavity"])
 def test_a_chain_at_rest_has_no_displacement(name, chains):
-    """Not a rounding below 0 of the polynomial of d."""
+    """Not a rounding of the polynomial of d, of either sign."""
     record = dd.Record(0.2 * np.sin(np.arange(300) * 0.1), 0.01)
     check = dd.check_ntc(chains[name], dd.Site(0.02, 2.5, 0.3)).dynamic([record])
     assert check.value("dynamic", "SLV", "mean_displacement") == 0.0

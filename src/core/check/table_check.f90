@@ -138,7 +138,8 @@ contains
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
-      displacement = max(0.0_wp, self%fitted(q))
+      displacement = 0.0_wp
+      if (q > 0.0_wp) displacement = max(0.0_wp, self%fitted(q))
    end function displacement
 
    !> The same by its series, which at rest is 0 but for rounding, of either sign [m]
