@@ -260,7 +260,7 @@ COLUMNS = {
     "elevation_x": "posizione del vertice del prospetto",
     "elevation_z": "quota del vertice del prospetto",
     "axis_x": "posizione del punto dell'asse",
-    "axis_z": "quota del punto dell'asse",
+    "axis_z": "quota sopra la base del punto dell'asse",
     "half_gable": "mezzo timpano",
     "opening_x": "posizione dell'apertura",
     "opening_z": "quota dell'apertura",
