@@ -39,10 +39,11 @@ from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.reporting.units import UNITS, Unit
 from dondolo.walls.chains import TABLES, Chain
-from dondolo.walls.mechanisms import TERMS, TabulatedWall
+from dondolo.walls.mechanisms import OneSidedWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
+from dondolo.walls.tabulated import TERMS, TabulatedWall
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
 # What sentences that are said elsewhere are marked by for the catalogues
@@ -100,6 +101,16 @@ def _levels(run: Run) -> Facts:
     ]
 
 
+def _elevations(walls: Sequence[Wall]) -> list[tuple[str, Any]]:
+    """Drawings of the elevations of walls that have one."""
+    alt = _("Elevation of {wall} with its openings and the line that it turns about, drawn to scale.")
+    return [
+        (wall.name, figure(wall.plot_elevation, say(alt, wall=wall.name)))
+        for wall in walls
+        if isinstance(wall, OneSidedWall) and wall.elevation_x is not None
+    ]
+
+
 def walls(run: Run) -> dict[str, Any]:
     """The walls with their statics, and their curves."""
     people = run.population
@@ -110,7 +121,10 @@ def walls(run: Run) -> dict[str, Any]:
                 "The wall at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
             )
             drawing = figure(people.walls[0].plot, alt)
-        return {"facts": _wall_facts(run), "tables": [], "drawing": drawing, "drawings": []}
+        elevations = _elevations(people.walls)
+        return {
+            "facts": _wall_facts(run), "tables": [], "drawing": drawing, "drawings": [], "elevations": elevations
+        }  # fmt: skip
     further = _further_properties(people.walls)
     facts, drawings = people._facts(), []
     if run.is_alike and len(people) <= DRAWN:
@@ -142,6 +156,7 @@ def walls(run: Run) -> dict[str, Any]:
         "tables": tables,
         "drawing": None,
         "drawings": drawings,
+        "elevations": _elevations(people.walls) if drawings else [],
     }
 
 

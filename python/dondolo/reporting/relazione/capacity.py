@@ -196,7 +196,13 @@ def _lowered(sums: Turning, *, with_ties: bool) -> tuple[tuple[Any, ...], tuple[
     moment = UNITS["N m/m"]
     symbols: list[Any] = [*_sum("P", "z")]
     numbers: list[Any] = [shown(sums.first, moment)]
-    terms = [(" - ", "Q", "z", sums.pushed), (" + ", "H", "e", sums.thrust_arms)]
+    if sums.pushed:
+        symbols += [" - ", *_sum("Q", "z")]
+        numbers += _signed(" - ", sums.pushed)
+    if sums.share < 1.0:
+        symbols = ["(", *symbols, ") cos ", Symbol("β")]
+        numbers = ["(", *numbers, ") · ", shown(sums.share, figures=_COSINE)]
+    terms = [(" + ", "H", "e", sums.thrust_arms)]
     terms += [(" - ", "T", "e", sums.tie_arms)] if with_ties else []
     for sign, force, lever, value in terms:
         if value:

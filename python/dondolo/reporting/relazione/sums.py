@@ -145,6 +145,8 @@ class Turning(NamedTuple):
         ΣH e and ΣT e.
     hinge : float
         Depth u of the hinge.
+    share : float
+        Share of gravity in the plane of the motion; 1 but about an inclined axis.
     """
 
     weights: float
@@ -157,6 +159,7 @@ class Turning(NamedTuple):
     thrust_arms: float
     tie_arms: float
     hinge: float
+    share: float
 
     def multiplier(self, sine: float, *, with_ties: bool) -> float:
         """Multiplier at a rotation."""
@@ -168,7 +171,7 @@ class Turning(NamedTuple):
     @property
     def lowered(self) -> float:
         """What loses height for a unit of rotation."""
-        return self.first - self.pushed + self.thrust_arms
+        return self.share * (self.first - self.pushed) + self.thrust_arms
 
 
 def turning_of(items: tuple[CalculationItem, ...], broken: frozenset[str] = frozenset()) -> Turning:
@@ -177,6 +180,8 @@ def turning_of(items: tuple[CalculationItem, ...], broken: frozenset[str] = froz
     ties = [one for one in items if is_held(one) and one.item not in broken]
     thrusts = [one for one in items if not math.isnan(one.overturning)]
     hinge = weights[0].depth - weights[0].arm
+    # Of weights about an inclined axis a part holds; results keep a dozen digits
+    share = round(weights[0].stabilising / (weights[0].force * weights[0].arm), 11)
     return Turning(
         weights=math.fsum(one.stabilising for one in weights if not math.isnan(one.stabilising)),
         ties=math.fsum(one.stabilising for one in ties),
@@ -188,4 +193,5 @@ def turning_of(items: tuple[CalculationItem, ...], broken: frozenset[str] = froz
         thrust_arms=math.fsum(one.force * (one.depth - hinge) for one in thrusts),
         tie_arms=math.fsum(one.force * (one.depth - hinge) for one in ties),
         hinge=hinge,
+        share=share,
     )

@@ -236,19 +236,25 @@ contains
    end subroutine put_sheet_row
 
    !> An item of the calculation
-   subroutine put_item(table, item)
+   subroutine put_item(table, item, is_whole)
       class(table_type), intent(inout) :: table
       type(item_type), intent(in) :: item
+      !> Are forces and moments those of a whole body, and not per metre of wall?
+      logical, intent(in) :: is_whole
 
+      character(len=:), allocatable :: per
+
+      per = '_m'
+      if (is_whole) per = ''
       call table%put('item', trim(item%name))
-      call table%put('force_n_m', item%force, is_given(item%force))
+      call table%put('force_n'//per, item%force, is_given(item%force))
       call table%put('depth_m', item%depth, is_given(item%depth))
       call table%put('arm_m', item%arm, is_given(item%arm))
       call table%put('lever_m', item%lever, is_given(item%lever))
-      call table%put('stabilising_nm_m', item%stabilising, is_given(item%stabilising))
-      call table%put('overturning_nm_m', item%overturning, is_given(item%overturning))
-      call table%put('force_lever_nm_m', item%first, is_given(item%first))
-      call table%put('force_lever2_nm2_m', item%second, is_given(item%second))
+      call table%put('stabilising_nm'//per, item%stabilising, is_given(item%stabilising))
+      call table%put('overturning_nm'//per, item%overturning, is_given(item%overturning))
+      call table%put('force_lever_nm'//per, item%first, is_given(item%first))
+      call table%put('force_lever2_nm2'//per, item%second, is_given(item%second))
    end subroutine put_item
 
 end module dondolo_case_check_rows
