@@ -1,0 +1,135 @@
+"""Snippets of pages: every block of Python runs, in order on its page, and the executable reads every block of a case.
+
+A comment above a block changes how it runs: `<!-- file: NAME -->` writes it to a file that later blocks import,
+`<!-- script -->` runs it by itself, and `<!-- not run: REASON -->` leaves it to the reader.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[2]
+BLOCK = re.compile(r"(?ms)^(?:<!-- (file|script|not run)(?:: ([^\n]+?))? -->\n)?```python\n(.*?)^```$")
+# One needs a cluster, the other MPI that starts Python
+MOST_NOT_RUN = 2
+
+
+def snippets(page):
+    """Blocks of Python of a page: how each runs, with the name or the reason, and its lines."""
+    return BLOCK.findall(page.read_text(encoding="utf-8"))
+
+
+def pages():
+    """Pages with Python, by their paths in the repository."""
+    found = [*ROOT.glob("docs/**/*.md"), *ROOT.glob("*.md")]
+    names = [str(page.relative_to(ROOT)) for page in found if "generated" not in page.parts and snippets(page)]
+    assert len(names) > 20
+    return sorted(names)
+
+
+def test_every_block_is_found():
+    """None is indented or fenced in a way that the pattern passes over, and few are not run."""
+    left = []
+    for name in pages():
+        text = (ROOT / name).read_text(encoding="utf-8")
+        assert len(snippets(ROOT / name)) == text.count("```python"), name
+        assert text.count("<!-- not run") == sum(how == "not run" for how, _, _ in snippets(ROOT / name)), name
+        left += [(name, reason) for how, reason, _ in snippets(ROOT / name) if how == "not run"]
+    assert len(left) <= MOST_NOT_RUN
+    assert all(len(reason) > 10 for _, reason in left)
+
+
+@pytest.fixture
+def folder(tmp_path, records, executable):
+    """A folder with what the snippets of all pages read: the data of a clone, a reader's files and results of runs."""
+    (tmp_path / "data").symlink_to(ROOT / "data", target_is_directory=True)
+    one, other = (np.round(100.0 * record.acceleration, 6) for record in records[:2])
+    n = min(len(one), len(other))
+    rows = [f"{0.005 * i:.3f},{x},{y}" for i, (x, y) in enumerate(zip(one[:n], other[:n], strict=True))]
+    (tmp_path / "1-EAS.dat").write_text("\n".join(["time(s),N(cm/s/s),Z(cm/s/s)", *rows]) + "\n")
+    values = "\n".join(f"{x / 981.0:.9f}" for x in one)
+    (tmp_path / "motion.txt").write_text(f"a motion\n{len(one)} 0.005\n{values}\n")
+    lines = "\n".join(f"{x:.6f}" for x in one)
+    (tmp_path / "AQV.dat").write_text(f"dt: 0.005\nunits: cm/s2\n{lines}\n")
+    (tmp_path / "records.csv").write_text("file,channel,vertical\n1-EAS.dat,N,Z\n")
+    (tmp_path / "walls.csv").write_text((ROOT / "data/walls/alternatives.csv").read_text(encoding="utf-8"))
+    (tmp_path / "out/openquake").mkdir(parents=True)
+    return tmp_path
+
+
+def run(command, folder):
+    """Run a command in a folder, which fails with what the command printed."""
+    environment = {**os.environ, "MPLBACKEND": "agg", "PYTHONPATH": str(folder)}
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-3000:]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", pages())
+def test_snippets_run(name, folder, executable):
+    """In one process and in their order, but for those with a mark."""
+    if "files.md" in name:
+        for case in ("parapet", "population"):
+            run([executable, "--quiet", f"data/cases/{case}.nml"], folder)
+    together = []
+    for i, (how, detail, code) in enumerate(snippets(ROOT / name)):
+        if how == "file":
+            (folder / detail).write_text(code, encoding="utf-8")
+        elif how == "script":
+            (folder / f"script{i}.py").write_text(code, encoding="utf-8")
+            run([sys.executable, f"script{i}.py"], folder)
+        elif how != "not run":
+            together.append(code)
+    (folder / "page.py").write_text("\n".join(together), encoding="utf-8")
+    run([sys.executable, "page.py"], folder)
+
+
+# Groups that the case of a page has, where those below do not go with what it shows
+GROUPS = {
+    "job": "&job task = 'stripes', output = 'out/page' /",
+    "wall": "&wall mechanism = 'one_sided', height = 3.0, thickness = 0.25 /",
+    "records": "&records catalogue = 'data/records/synthetic44.csv', polarity = 'both' /",
+    "stripes": "&stripes levels = 0.2, 0.4, 0.6, 0.8 /",
+}
+STRIP = "&wall mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /"
+FACADE = "&building period = 0.3, storeys = 3, level = 0.0, building_height = 9.0 /"
+COMPANIONS = {
+    "docs/bending.md": [STRIP.replace("/", ", elastic_period = 0.1 /"), "&job task = 'typology', output = 'out/page' /"],
+    "docs/supports.md": [STRIP, "&job task = 'stripes', output = 'out/page' /"],
+    "docs/facades.md": ["&job task = 'typology', output = 'out/page' /"],
+}
+
+
+def cases():
+    """Blocks of namelist groups in pages, fenced or indented, each with the name of its page."""
+    found = []
+    for page in sorted(ROOT.glob("docs/**/*.md")):
+        if "generated" in page.parts:
+            continue
+        text = page.read_text(encoding="utf-8")
+        blocks = [block for block in re.findall(r"(?ms)^```fortran\n(.*?)^```$", text) if block.startswith("&")]
+        plain = re.sub(r"(?ms)^```.*?^```$", "", text)
+        blocks += [re.sub(r"(?m)^    ", "", block) for block in re.findall(r"(?m)(?:^    [ &].*\n)*^    &.*\n(?:^    .*\n)*", plain)]
+        found += [(str(page.relative_to(ROOT)), block) for block in blocks]
+    assert len(found) > 10
+    return found
+
+
+@pytest.mark.parametrize(("name", "block"), cases())
+def test_cases_are_read(name, block, folder, executable):
+    """With the groups that the block leaves out, which its page assumes."""
+    given = set(re.findall(r"(?m)(?:^|\s)&(\w+)", block))
+    more = {re.match(r"&(\w+)", group)[1]: group for group in COMPANIONS.get(name, [])}
+    if "uncertainty" in given:
+        more["job"] = "&job task = 'typology', output = 'out/page' /"
+        more.setdefault("building", FACADE.replace("level = 0.0", "level = 6.0"))
+        if "bending" in name:
+            del more["building"]
+    groups = [group for key, group in (GROUPS | more).items() if key not in given]
+    (folder / "case.nml").write_text("\n".join([*groups, block]), encoding="utf-8")
+    run([executable, "--check", "case.nml"], folder)
