@@ -63,10 +63,11 @@ def folder(tmp_path, records, executable):
 
 
 def run(command, folder):
-    """Run a command in a folder, which fails with what the command printed."""
+    """What a command prints that runs in a folder."""
     environment = {**os.environ, "MPLBACKEND": "agg", "PYTHONPATH": str(folder)}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-3000:]
+    return done.stdout.splitlines()
 
 
 @pytest.mark.slow
@@ -86,7 +87,10 @@ def test_snippets_run(name, folder, executable):
         elif how != "not run":
             together.append(code)
     (folder / "page.py").write_text("\n".join(together), encoding="utf-8")
-    run([sys.executable, "page.py"], folder)
+    printed = run([sys.executable, "page.py"], folder)
+    # What a page shows right below a block is what the block prints
+    for shown in re.findall(r"(?ms)^```python\n[^`]*^```\n\n```text\n(.*?)^```$", (ROOT / name).read_text(encoding="utf-8")):
+        assert [line for line in shown.splitlines() if line not in printed] == []
 
 
 # Groups that the case of a page has, where those below do not go with what it shows
