@@ -212,7 +212,8 @@ def _granite(found: dict) -> list[str]:
         "## Overturning on a shake table: granite boulders",
         "",
         *markdown.paragraph(
-            "The [summary](../experiments.md#two-boulders-on-a-shake-table) has the figure and what follows from this table."
+            "The [summary](../experiments.md#two-boulders-on-a-shake-table) has the figure, and what follows from"
+            " this table."
         ),
         *markdown.paragraph(
             "The study is that of others and unpublished. This page has our own summary statistics; the table of"

@@ -1,8 +1,9 @@
 """Compare what dondolo computes with what was measured, for ./run experiments.
 
-Writes docs/experiments.md, docs/studies/experiments.md, figures and data/experiments/statistics.json, and in out/experiments one line for each
-test (experiments.csv) and all statistics with versions and checksums (experiments.json). With --check only the last two
-are written, and the command fails if statistics or page differ from the stored ones. Nothing is downloaded.
+Writes docs/experiments.md, docs/studies/experiments.md, their figures and data/experiments/statistics.json, and in
+out/experiments one line for each test (experiments.csv) and all statistics with versions and checksums
+(experiments.json). With --check only the last two are written, and the command fails if statistics or pages differ from
+the stored ones. Nothing is downloaded.
 """
 
 import argparse

@@ -10,11 +10,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[2]
 BLOCK = re.compile(r"(?ms)^(?:<!-- (file|script|not run)(?:: ([^\n]+?))? -->\n)?```python\n(.*?)^```$")
+# What a page shows right below a block is what the block prints
+PRINTED = re.compile(r"(?ms)^```python\n[^`]*^```\n\n```text\n(.*?)^```$")
 # One needs a cluster, the other MPI that starts Python
 MOST_NOT_RUN = 2
 
@@ -48,16 +49,21 @@ def test_every_block_is_found():
 def folder(tmp_path, records, executable):
     """A folder with what the snippets of all pages read: the data of a clone, a reader's files and results of runs."""
     (tmp_path / "data").symlink_to(ROOT / "data", target_is_directory=True)
-    one, other = (np.round(100.0 * record.acceleration, 6) for record in records[:2])
-    n = min(len(one), len(other))
-    rows = [f"{0.005 * i:.3f},{x},{y}" for i, (x, y) in enumerate(zip(one[:n], other[:n], strict=True))]
-    (tmp_path / "1-EAS.dat").write_text("\n".join(["time(s),N(cm/s/s),Z(cm/s/s)", *rows]) + "\n")
-    values = "\n".join(f"{x / 981.0:.9f}" for x in one)
+    header = ["# Sampling Freq(Hz), 200", "# Time, N-S(gal), U-D(gal)"]
+    strong = sorted(records, key=lambda record: -record.peak_acceleration)
+    for i in range(9):
+        both = [100.0 * record.acceleration for record in strong[2 * i : 2 * i + 2]]
+        rows = [f"{0.005 * j:.3f},{x:.6f},{y:.6f}" for j, (x, y) in enumerate(zip(*both, strict=False))]
+        (tmp_path / f"KMM00{i + 1}.csv").write_text("\n".join([f"# Station Code, KMM00{i + 1}", *header, *rows]) + "\n")
+    lines = "".join(f"KMM00{i}.csv,N-S,U-D\n" for i in range(1, 10))
+    (tmp_path / "records.csv").write_text(f"file,channel,vertical\n{lines}")
+    one = records[0].acceleration
+    values = "\n".join(f"{x / 9.81:.9f}" for x in one)
     (tmp_path / "motion.txt").write_text(f"a motion\n{len(one)} 0.005\n{values}\n")
-    lines = "\n".join(f"{x:.6f}" for x in one)
-    (tmp_path / "AQV.dat").write_text(f"dt: 0.005\nunits: cm/s2\n{lines}\n")
-    (tmp_path / "records.csv").write_text("file,channel,vertical\n1-EAS.dat,N,Z\n")
-    (tmp_path / "walls.csv").write_text((ROOT / "data/walls/alternatives.csv").read_text(encoding="utf-8"))
+    values = "\n".join(f"{100.0 * x:.6f}" for x in one)
+    (tmp_path / "AQV.dat").write_text(f"dt: 0.005\nunits: cm/s2\n{values}\n")
+    table = (ROOT / "data/walls/alternatives.csv").read_text(encoding="utf-8")
+    (tmp_path / "walls.csv").write_text("".join(line for line in table.splitlines(True) if not line.startswith("#")))
     (tmp_path / "out/openquake").mkdir(parents=True)
     return tmp_path
 
@@ -88,24 +94,25 @@ def test_snippets_run(name, folder, executable):
             together.append(code)
     (folder / "page.py").write_text("\n".join(together), encoding="utf-8")
     printed = run([sys.executable, "page.py"], folder)
-    # What a page shows right below a block is what the block prints
-    for shown in re.findall(r"(?ms)^```python\n[^`]*^```\n\n```text\n(.*?)^```$", (ROOT / name).read_text(encoding="utf-8")):
+    for shown in PRINTED.findall((ROOT / name).read_text(encoding="utf-8")):
         assert [line for line in shown.splitlines() if line not in printed] == []
 
 
-# Groups that the case of a page has, where those below do not go with what it shows
+# Groups that a page assumes beside those that it shows
 GROUPS = {
     "job": "&job task = 'stripes', output = 'out/page' /",
     "wall": "&wall mechanism = 'one_sided', height = 3.0, thickness = 0.25 /",
     "records": "&records catalogue = 'data/records/synthetic44.csv', polarity = 'both' /",
     "stripes": "&stripes levels = 0.2, 0.4, 0.6, 0.8 /",
 }
-STRIP = "&wall mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /"
-FACADE = "&building period = 0.3, storeys = 3, level = 0.0, building_height = 9.0 /"
-COMPANIONS = {
-    "docs/bending.md": [STRIP.replace("/", ", elastic_period = 0.1 /"), "&job task = 'typology', output = 'out/page' /"],
-    "docs/supports.md": [STRIP, "&job task = 'stripes', output = 'out/page' /"],
-    "docs/facades.md": ["&job task = 'typology', output = 'out/page' /"],
+TYPOLOGY = {"job": "&job task = 'typology', output = 'out/page' /"}
+STRIP = {"wall": "&wall mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /"}
+HOUSE = {"building": "&building period = 0.3, storeys = 3, level = 0.0, building_height = 9.0 /"}
+ASSUMED = {"docs/bending.md": STRIP, "docs/facades.md": TYPOLOGY}
+# Of a page with several blocks, by the first group of each
+ASSUMED_BY_BLOCK = {
+    ("docs/supports.md", "building"): STRIP,
+    ("docs/supports.md", "uncertainty"): HOUSE,
 }
 
 
@@ -116,10 +123,10 @@ def cases():
         if "generated" in page.parts:
             continue
         text = page.read_text(encoding="utf-8")
-        blocks = [block for block in re.findall(r"(?ms)^```fortran\n(.*?)^```$", text) if block.startswith("&")]
+        fenced = [block for block in re.findall(r"(?ms)^```fortran\n(.*?)^```$", text) if block.startswith("&")]
         plain = re.sub(r"(?ms)^```.*?^```$", "", text)
-        blocks += [re.sub(r"(?m)^    ", "", block) for block in re.findall(r"(?m)(?:^    [ &].*\n)*^    &.*\n(?:^    .*\n)*", plain)]
-        found += [(str(page.relative_to(ROOT)), block) for block in blocks]
+        indented = re.findall(r"(?m)^    &.*\n(?:^    .*\n)*", plain)
+        found += [(str(page.relative_to(ROOT)), block) for block in (*fenced, *indented)]
     assert len(found) > 10
     return found
 
@@ -127,13 +134,9 @@ def cases():
 @pytest.mark.parametrize(("name", "block"), cases())
 def test_cases_are_read(name, block, folder, executable):
     """With the groups that the block leaves out, which its page assumes."""
-    given = set(re.findall(r"(?m)(?:^|\s)&(\w+)", block))
-    more = {re.match(r"&(\w+)", group)[1]: group for group in COMPANIONS.get(name, [])}
-    if "uncertainty" in given:
-        more["job"] = "&job task = 'typology', output = 'out/page' /"
-        more.setdefault("building", FACADE.replace("level = 0.0", "level = 6.0"))
-        if "bending" in name:
-            del more["building"]
-    groups = [group for key, group in (GROUPS | more).items() if key not in given]
-    (folder / "case.nml").write_text("\n".join([*groups, block]), encoding="utf-8")
+    given = re.findall(r"(?m)^\s*&(\w+)", block)
+    groups = GROUPS | (TYPOLOGY if "uncertainty" in given else {})
+    groups |= ASSUMED.get(name, {}) | ASSUMED_BY_BLOCK.get((name, given[0]), {})
+    lines = [group for key, group in groups.items() if key not in given]
+    (folder / "case.nml").write_text("\n".join([*lines, block]), encoding="utf-8")
     run([executable, "--check", "case.nml"], folder)
