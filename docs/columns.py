@@ -69,6 +69,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "edp_lowest": f"lower bound of the EDP, only with {_CERTIFIED}; another one than `edp_highest` only if"
             " `not_computable`",
             "edp_highest": "upper bound; likewise",
+            "edp_rounded": "EDP with every sample of the record moved within half a unit of its last printed digit;"
+            " likewise; empty: it is not known how the record was printed",
             "uplift": "whether the ground accelerates downwards by g or more at some instant; only of one wall under"
             " [vertical motion](../ground_motions.md#vertical-motion)",
         },

@@ -18,6 +18,7 @@ from dondolo.exchange.case_text import case_text
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
+from dondolo.records.synthetic import SYNTHETIC
 from dondolo.reporting import headings
 from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
@@ -310,6 +311,10 @@ def records(run: Run) -> dict[str, Any]:
             (say("record"), results.record.name),
             (say("factor"), number(results.scale)),
         ]
+    formats = _formats(run)
+    if SYNTHETIC in formats:
+        counts = {"some": list(formats).count(SYNTHETIC), "all": len(formats)}
+        pairs.append((say("origin"), say("{some} of {all} records are synthetic: computed, not recorded", **counts)))
     found: dict[str, Any] = {"facts": pairs, "histories": None, "records": None}
     found["is_motion"] = isinstance(results, Response)
     if isinstance(results, Stripes):
@@ -322,6 +327,15 @@ def records(run: Run) -> dict[str, Any]:
         named = zip(results.record_names, results.events, strict=False)
         found["records"] = _stored_records_table([{"name": name, "event": event} for name, event in named])
     return found
+
+
+def _formats(run: Run) -> Sequence[str]:
+    """Formats that the records were read in."""
+    if run.records:
+        return [record.metadata.get("format", "") for record in run.records]
+    if run.file is not None and run.file.records:
+        return [one.get("format", "") for one in run.file.records]
+    return run.results.record_formats if isinstance(run.results, Stripes) else ()
 
 
 def _stored_records_table(stored: Sequence[Mapping[str, str]]) -> Table:
