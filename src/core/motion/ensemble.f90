@@ -236,11 +236,6 @@ contains
          end if
       end if
       if (solver%engine /= 'lanes') return
-      if (mechanism%scatter%exists()) then
-         call raise_input(error, 'engine = ''lanes'': has one restitution e for all impacts of a wall; must be ''auto'' or '// &
-            & '''rk45'' with restitution_sd', not_together, 'engine')
-         return
-      end if
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
