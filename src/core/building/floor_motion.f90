@@ -20,6 +20,18 @@ module dondolo_building_floor_motion
 
    public :: filter_record, filter_records, floor_samples
 
+   !> Records that several threads take from
+   type :: queue_type
+      !> The building under records of each time step, and which of them a record has
+      type(swing_type), allocatable :: swings(:)
+      integer, allocatable :: swing_of(:)
+      !> Samples of the motion under each record
+      real(wp), allocatable :: samples(:)
+      !> Records in the order from the last of which they are taken, and how many of them are left
+      integer, allocatable :: order(:)
+      integer :: left = 0
+   end type queue_type
+
    !> Places side by side, each with a record
    type :: places_type
       !> Number of the record in each; 0: none is left
@@ -92,31 +104,28 @@ contains
       !> Greatest |delta| over the height of the line through the supports in each [rad]
       real(wp), allocatable, intent(out) :: drift(:)
 
-      type(swing_type), allocatable :: swings(:)
-      real(wp) :: samples(size(ground))
-      integer :: swing_of(size(ground)), i, left
-      integer, allocatable :: order(:)
+      type(queue_type) :: queue
+      integer :: i, k
 
-      allocate (swings(0))
+      allocate (queue%swings(0), queue%swing_of(size(ground)), queue%samples(size(ground)))
       do i = 1, size(ground)
-         samples(i) = floor_samples(building, ground(i))
-         do left = 1, size(swings)
-            if (.not. abs(swings(left)%step - ground(i)%dt) > 0.0_wp) exit
+         queue%samples(i) = floor_samples(building, ground(i))
+         do k = 1, size(queue%swings)
+            if (.not. abs(queue%swings(k)%step - ground(i)%dt) > 0.0_wp) exit
          end do
-         swing_of(i) = left
-         if (left <= size(swings)) cycle
-         swings = [swings, swing_of_step(building, ground(i)%dt)]
+         queue%swing_of(i) = k
+         if (k > size(queue%swings)) queue%swings = [queue%swings, swing_of_step(building, ground(i)%dt)]
       end do
       ! Long ones first, so that places end together
-      call make_order(samples, order)
+      call make_order(queue%samples, queue%order)
+      queue%left = size(ground)
       ! The motions of one wall after another
       call keep_freed()
       allocate (floors(size(ground)), drift(size(ground)))
       drift = 0.0_wp
-      left = size(ground)
       !$omp parallel num_threads(team_of(threads, (size(ground) - 1)/side_by_side + 1)) default(none) &
-      !$omp & shared(building, ground, floors, drift, swings, swing_of, samples, order, left)
-      call filter_some(building, ground, swings, swing_of, samples, order, left, floors, drift)
+      !$omp & shared(building, ground, floors, drift, queue)
+      call filter_some(building, ground, queue, floors, drift)
       !$omp end parallel
    end subroutine filter_records
 
@@ -130,18 +139,12 @@ contains
    end function swing_of_step
 
    !> Filter records until none is left; several threads do so at once
-   subroutine filter_some(building, ground, swings, swing_of, samples, order, left, floors, drift)
+   subroutine filter_some(building, ground, queue, floors, drift)
       type(building_type), intent(in) :: building
       !> Accelerations of the ground
       type(record_type), intent(in) :: ground(:)
-      !> The building under records of each time step, and which of them a record has
-      type(swing_type), intent(in) :: swings(:)
-      integer, intent(in) :: swing_of(:)
-      !> Samples of the motion under each record
-      real(wp), intent(in) :: samples(:)
-      !> Records in the order from the last of which they are taken, and how many of them are left
-      integer, intent(in) :: order(:)
-      integer, intent(inout) :: left
+      !> Where they are taken from
+      type(queue_type), intent(inout) :: queue
       !> Motions of the floor
       type(record_type), intent(inout) :: floors(:)
       !> Greatest drift in each [rad]
@@ -151,17 +154,17 @@ contains
       integer :: k
 
       allocate (places)
-      call make_room(places, size(swings(1)%by_u, 2), size(swings(1)%driven_by_u, 2))
+      call make_room(places, size(queue%swings(1)%by_u, 2), size(queue%swings(1)%driven_by_u, 2))
       do k = 1, side_by_side
          call take_next(k)
       end do
       do while (any(places%record > 0))
          do k = 1, side_by_side
             places%steps(k) = 0
-            if (places%record(k) > 0) call load_ground(places, k, swings(places%swing(k))%parts, &
+            if (places%record(k) > 0) call load_ground(places, k, queue%swings(places%swing(k))%parts, &
                & ground(places%record(k))%acceleration)
          end do
-         call advance(places, swings(1)%has_diaphragm)
+         call advance(places, queue%swings(1)%has_diaphragm)
          do k = 1, side_by_side
             if (places%record(k) == 0) cycle
             call store(places, k, floors(places%record(k))%acceleration)
@@ -181,15 +184,15 @@ contains
          integer :: place
 
          !$omp atomic capture
-         place = left
-         left = left - 1
+         place = queue%left
+         queue%left = queue%left - 1
          !$omp end atomic
          places%record(k) = 0
          if (place < 1) return
-         places%record(k) = order(place)
+         places%record(k) = queue%order(place)
          associate (i => places%record(k))
-            call begin(places, k, swings(swing_of(i)), ground(i), nint(samples(i)), floors(i))
-            places%swing(k) = swing_of(i)
+            places%swing(k) = queue%swing_of(i)
+            call begin(places, k, queue%swings(places%swing(k)), ground(i), nint(queue%samples(i)), floors(i))
          end associate
       end subroutine take_next
 
