@@ -75,16 +75,18 @@ contains
                      q = places(i)*limits(k)*mechanism%capacity
                      v = speeds(j)*mechanism%frequency_parameter()*mechanism%capacity
                      if (q == 0.0_wp .and. v <= 0.0_wp) cycle
-                     call free_motion(mechanism, limits(k)*mechanism%capacity, 0.0_wp, q, v, closed)
+                     call free_motion(mechanism, limits(k)*mechanism%capacity, 0.0_wp, q, v, mechanism%restitution, closed)
                      call step_on(mechanism, limits(k)*mechanism%capacity, q, v, stepped)
                      call check(closed%collapsed .eqv. stepped%collapsed, 'same flag')
                      call check_close(closed%peak, stepped%peak, 1.0e-9_wp, 'peak')
                      call check_close(closed%delay, stepped%delay, 1.0e-8_wp, 'time of the peak')
                      if (q > mechanism%capacity .and. .not. closed%collapsed) beyond = beyond + 1
                      ! A rotation that was reached before hides a lower peak, and nothing else.
-                     call free_motion(mechanism, limits(k)*mechanism%capacity, 0.999_wp*closed%peak, q, v, again)
+                     call free_motion(mechanism, limits(k)*mechanism%capacity, 0.999_wp*closed%peak, q, v, &
+                        & mechanism%restitution, again)
                      call check(again%peak == closed%peak .and. again%delay == closed%delay, 'a new peak')
-                     call free_motion(mechanism, limits(k)*mechanism%capacity, 1.001_wp*closed%peak, q, v, again)
+                     call free_motion(mechanism, limits(k)*mechanism%capacity, 1.001_wp*closed%peak, q, v, &
+                        & mechanism%restitution, again)
                      call check(again%collapsed .eqv. closed%collapsed, 'same flag whatever was reached before')
                      call check(again%peak == merge(closed%peak, 0.0_wp, closed%collapsed), 'no new peak')
                   end do
@@ -129,7 +131,7 @@ contains
                v = 10.0_wp**(-k)*wall%mechanism%frequency_parameter()*wall%mechanism%capacity
                allocate (held, source=wall%mechanism)
                if (m < 5) then
-                  call free_motion(held, held%capacity, 0.0_wp, q, v, tail)
+                  call free_motion(held, held%capacity, 0.0_wp, q, v, held%restitution, tail)
                else
                   restraints = restraint_state_type()
                   call restraints%begin(held, 0.0_wp)

@@ -54,6 +54,35 @@ def test_a_history_is_broken_off(what, engine):
     assert done.stdout.split() == ["interrupted", "0"], done.stderr
 
 
+@pytest.mark.parametrize("engine", ["rk45", "lanes"])
+def test_an_event_breaks_a_history_off(engine):
+    """In a thread of its own, as of a page whose reader leaves: at once, not after the present block of histories."""
+    wall = dd.OneSidedWall(3.0, 0.25, restitution_value=0.99999)
+    ground = 0.6 * wall.trigger_acceleration * np.sin(2.0 * np.pi * 0.01 * np.arange(500_000))
+    for i in range(1, 4):
+        ground[i::500] = -wall.trigger_acceleration * (1.0 + 1e-6)
+    record, stop, raised = dd.Record(ground, 0.01), threading.Event(), []
+
+    def run():
+        level = record.peak_acceleration / wall.gravity
+        with pytest.raises(dd.errors.Interrupted, match="0 of 1 stripes are complete"):
+            dd.multiple_stripe(wall, [record], [level], solver=dd.Solver(engine=engine), progress=False, stop=stop)
+        raised.append(time.perf_counter())
+
+    beside = threading.Thread(target=run)
+    beside.start()
+    time.sleep(0.5)
+    assert beside.is_alive()
+    begin = time.perf_counter()
+    stop.set()
+    beside.join(30.0)
+    assert raised
+    assert raised[0] - begin < 2.0
+    # What comes after is not broken off.
+    short = dd.Record(ground[:200], 0.01)
+    assert dd.multiple_stripe(wall, [short], [0.001], progress=False, stop=threading.Event()).edp.shape == (1, 1)
+
+
 # Another thread goes on, whole, while Ctrl-C breaks off what the main thread computes
 BESIDE = """
 import os, signal, threading

@@ -8,7 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dondolo._base.arguments import wrong_type
+
+# How often a thread that looks at an event looks whether its work is over [s]
+_PAUSE = 0.02
 
 
 class Interrupts:
@@ -29,8 +35,27 @@ class Interrupts:
 
     def __init__(self, stop: threading.Event | None = None) -> None:
         self.signalled = self.answered = False
-        self._is_heard = False
+        self._is_heard = self._is_over = False
         self._stop = stop
+        self._flag: NDArray[np.int32] | None = None
+
+    @property
+    def flag(self) -> NDArray[np.int32] | None:
+        """A number that is not 0 once the event was set, for what Fortran computes; None without an event."""
+        if self._stop is not None and self._flag is None:
+            self._flag = np.array([self._stop.is_set()], dtype=np.int32)
+            threading.Thread(target=self._watch, args=(self._stop, self._flag), daemon=True).start()
+        return self._flag
+
+    def _watch(self, stop: threading.Event, flag: NDArray[np.int32]) -> None:
+        while not self._is_over:
+            if stop.wait(_PAUSE):
+                flag[0] = 1
+                return
+
+    def end(self) -> None:
+        """The work is over: the event is looked at no more."""
+        self._is_over = True
 
     @property
     def requested(self) -> bool:
@@ -91,6 +116,7 @@ def deferred(stop: threading.Event | None = None) -> Iterator[Interrupts]:
         yield here
     finally:
         _OUTERMOST.interrupts = None
+        here.end()
         if is_put_aside:
             signal.signal(signal.SIGINT, signal.default_int_handler)
     if here.signalled and not here.answered:

@@ -6,10 +6,10 @@
 !> knows are sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that
 !> compute release Python's lock (threadsafe); those that fill or empty a handle hold it.
 module library
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_ptr
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
    use dondolo_base_error, only : error_type, not_a_string, raise_input
-   use dondolo_base_interrupt, only : begin => listen, finish => end_listening
+   use dondolo_base_interrupt, only : begin => listen, finish => end_listening, look_at => stop_at
    use dondolo_base_limits, only : longest_name
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : name_problem, shown
@@ -36,7 +36,7 @@ module library
    private
 
    public :: cite, cite_keys, constants, properties, check_text, shown_probability, variant, available_threads, listen, &
-      & end_listening, work_alone, take_parcel, take_series, free
+      & end_listening, stop_at, work_alone, take_parcel, take_series, free
 
 contains
 
@@ -195,6 +195,15 @@ contains
    subroutine end_listening()
       call finish()
    end subroutine end_listening
+
+   !> Let what this thread computes end once an integer(c_int) is not 0, which another thread writes: its address; 0: no more
+   subroutine stop_at(address)
+      integer(c_int64_t), intent(in) :: address
+      type(c_ptr) :: flag
+
+      flag = transfer(address, flag)
+      call look_at(flag)
+   end subroutine stop_at
 
    !> Let the thread that calls it work alone from now on: OpenMP's other threads do not survive a fork
    subroutine work_alone()

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, argument_error
+from dondolo._base.interrupts import Interrupts
 from dondolo._fortran import _core
 from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError, Problem, visible
 
@@ -265,9 +266,20 @@ def check(sent: NDArray[np.int64]) -> None:
 
 
 class Stoppable:
-    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone (a context manager)."""
+    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone (a context manager).
+
+    Parameters
+    ----------
+    interrupts : Interrupts, optional
+        Of the work, whose event then stops it too, in any thread.
+    """
+
+    def __init__(self, interrupts: Interrupts | None = None) -> None:
+        self._flag = None if interrupts is None else interrupts.flag
 
     def __enter__(self) -> None:
+        if self._flag is not None:
+            _core.library.stop_at(self._flag.ctypes.data)
         self._listens = threading.current_thread() is threading.main_thread()
         if self._listens:
             _core.library.listen()
@@ -275,6 +287,8 @@ class Stoppable:
     def __exit__(self, *_: object) -> None:
         if self._listens:
             _core.library.end_listening()
+        if self._flag is not None:
+            _core.library.stop_at(0)
 
 
 # OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has. Windows has

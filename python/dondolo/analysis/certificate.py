@@ -98,7 +98,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
             while done < len(places) and not interrupts.requested:
                 here = slice(done, done + _BLOCK)
                 rows = tuple(places[here].T)
-                with Stoppable():
+                with Stoppable(interrupts):
                     kind, *values, low, high, failure = _core.histories.certify(
                         wall.number,
                         suite.number,
@@ -122,7 +122,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
             is_stopped = True
         except DondoloError:
             # Fortran has broken the block off.
-            is_stopped = interrupts.signalled
+            is_stopped = interrupts.requested
             if not is_stopped:
                 raise
         if is_stopped:

@@ -251,7 +251,7 @@ class Request:
             first = done - (ends[one - 1] if one else 0)
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
-            with Stoppable():
+            with deferred() as interrupts, Stoppable(interrupts):
                 counts, failure = _core.stripes.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
             check(failure)
             work = Work.total([work, Work._of_counts(counts)])
@@ -303,7 +303,7 @@ def in_blocks(
             return done, True
         except DondoloError:
             # Fortran has broken the block off.
-            if not interrupts.signalled:
+            if not interrupts.requested:
                 raise
         interrupts.answered = interrupts.signalled
         return done, interrupts.requested

@@ -27,7 +27,7 @@ from dondolo.populations.store import Contents, contents_of
 from dondolo.populations.study import typology_of
 
 # Seconds between two looks at how far a run is
-_PAUSE = 0.1
+_PAUSE = 0.05
 
 
 def run_case(path: str | os.PathLike[str], *, progress: bool = True, stop: threading.Event | None = None) -> Results:

@@ -68,13 +68,23 @@ class Shared(NamedTuple):
     request: Request
     states: FloatArray
 
-    def run(self, walls: Sequence[Wall], first: int) -> Part:
-        """Run consecutive rows of the population, the first of which has a number, from 0."""
+    def run(self, walls: Sequence[Wall], first: int, interrupts: Interrupts | None = None) -> Part:
+        """Run consecutive rows of the population, the first of which has a number, from 0.
+
+        An event of the interrupts raises KeyboardInterrupt, as Ctrl-C does.
+        """
         start = time.perf_counter()
         study, people = self.request._study, upload_walls(walls)
-        with Stoppable():
+        with Stoppable(interrupts):
             sent = _core.stores.run_rows(study.number, people.number, len(walls), self.states, first + 1)
-        return Part(receive(sent).integers, time.perf_counter() - start)
+        try:
+            rows = receive(sent)
+        except DondoloError:
+            # Fortran has broken the block off.
+            if interrupts is None or not interrupts.requested:
+                raise
+            raise KeyboardInterrupt from None
+        return Part(rows.integers, time.perf_counter() - start)
 
 
 def run_walls(
@@ -129,7 +139,7 @@ def _run_rest(
     def parts_here() -> Iterator[tuple[int, int, Part]]:
         while place := blocks.take():
             first, count = place
-            yield first, count, shared.run(request.walls[first : first + count], first)
+            yield first, count, shared.run(request.walls[first : first + count], first, interrupts)
 
     with (
         progress_bar(

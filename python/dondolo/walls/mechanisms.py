@@ -79,7 +79,7 @@ class OneSidedWall(BlockWall):
         Factor on the restitution e of any model, 1 if left out.
     restitution_sd : float, optional
         Standard deviation of the restitution e, which then varies from impact to impact, uniformly about that of the
-        model; engine rk45 only (docs/theory.md, section 3).
+        model (docs/theory.md, section 3).
     restitution_seed : float, optional
         Seed of the random numbers of these ratios, 1 if not given.
     gravity : float, optional

@@ -111,9 +111,7 @@ class Wall:
     def _sources(self) -> tuple[str, ...]:
         """What it uses of the methods of others, in the words of dondolo_files_references."""
         building = () if self.building is None else ("building",)
-        # The engine that has a speed ratio for each impact
-        engine = ("rk45",) if self.restitution_sd else ()
-        return self.mechanism, f"{self.mechanism}/{self.restitution}", *building, *engine
+        return self.mechanism, f"{self.mechanism}/{self.restitution}", *building
 
     def _understand(self, **more: Any) -> None:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""

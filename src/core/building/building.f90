@@ -66,8 +66,6 @@ module dondolo_building
       procedure :: longest_vibration
       !> Is another building the same?
       procedure :: equals
-      !> Does another building swing alike?
-      procedure :: swings_as
    end type building_type
 
 contains
@@ -163,20 +161,6 @@ contains
       if (equals .and. self%has_diaphragm()) equals = .not. any(abs(of_diaphragm(self) - of_diaphragm(other)) > 0.0_wp) &
          & .and. .not. any(abs(self%participation_top - other%participation_top) > 0.0_wp)
    end function equals
-
-   !> Does another building swing alike under every record, at the same samples, whatever its walls feel of that?
-   pure logical function swings_as(self, other)
-      class(building_type), intent(in) :: self
-      type(building_type), intent(in) :: other
-
-      swings_as = size(self%period) == size(other%period) .and. self%refine == other%refine &
-         & .and. (self%has_diaphragm() .eqv. other%has_diaphragm())
-      if (swings_as) swings_as = all(moves(self) .eqv. moves(other)) &
-         & .and. .not. any(abs(self%period - other%period) + abs(self%damping - other%damping) > 0.0_wp)
-      if (.not. (swings_as .and. self%has_diaphragm())) return
-      swings_as = .not. any(abs([self%diaphragm%period - other%diaphragm%period, &
-         & self%diaphragm%damping - other%diaphragm%damping, self%participation_top - other%participation_top]) > 0.0_wp)
-   end function swings_as
 
    !> What the motion of a wall under a diaphragm depends on besides its modes
    pure function of_diaphragm(building) result(numbers)

@@ -9,7 +9,7 @@ module dondolo_motion_ensemble
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief
    use dondolo_base_threads, only : team_of
-   use dondolo_motion_elastic_filter, only : elastic_filter_type, new_elastic_filter
+   use dondolo_motion_elastic_filter, only : elastic_filter_type, new_elastic_filters
    use dondolo_motion_elastic_motion, only : simulate_filtered
    use dondolo_motion_error_estimate, only : estimated_error, other_run, runs_of_estimate
    use dondolo_motion_initial_state, only : initial_state_type
@@ -22,6 +22,7 @@ module dondolo_motion_ensemble
    use dondolo_motion_solver, only : solver_type
    use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
+   use dondolo_record_oscillators, only : side_by_side
    use dondolo_record_suite, only : suite_type
    use dondolo_wall_mechanism, only : mechanism_type
    implicit none
@@ -117,7 +118,8 @@ contains
       type(work_type) :: own
       character(len=16) :: variant
       type(watched_type) :: watched
-      integer :: number, team
+      integer, allocatable :: filtered(:)
+      integer :: number, team, first
       logical :: stays
 
       if (checked) call assert(mechanism%capacity > 0.0_wp .and. mechanism%capacity <= huge(0.0_wp), 'a capacity is positive')
@@ -128,15 +130,17 @@ contains
       if (.not. constants%form%exists) rest = new_rest(mechanism)
       ! What all levels of a record have in common as long as the joints of the wall are closed
       allocate (filter(merge(size(suite%records), 0, mechanism%joint%exists .and. .not. initial%moves())))
+      filtered = pack([(number, number=1, size(filter))], [(any(queue%record == number), number=1, size(filter))])
       team = team_of(threads, size(queue%record)/merge(histories_of_thread, 1, constants%form%exists))
       !$omp parallel num_threads(team) default(none) &
-      !$omp & private(own, number, stays) &
-      !$omp & shared(variant, constants, rest, filter, mechanism, suite, solver, initial, queue, work, watched)
+      !$omp & private(own, number, first, stays) &
+      !$omp & shared(variant, constants, rest, filter, filtered, mechanism, suite, solver, initial, queue, work, watched)
       call watch(watched)
       own = work_type()
       !$omp do schedule(dynamic)
-      do number = 1, size(filter)
-         if (any(queue%record == number)) filter(number) = new_elastic_filter(mechanism%joint, suite%records(number))
+      do first = 1, size(filtered), side_by_side
+         call new_elastic_filters(mechanism%joint, suite%records, filtered(first:min(first + side_by_side - 1, size(filtered))), &
+            & filter)
       end do
       !$omp end do
       if (constants%form%exists) then
@@ -241,11 +245,6 @@ contains
          end if
       end if
       if (solver%engine /= 'lanes') return
-      if (mechanism%scatter%exists()) then
-         call raise_input(error, 'engine = ''lanes'': has one restitution e for all impacts of a wall; must be ''auto'' or '// &
-            & '''rk45'' with restitution_sd', not_together, 'engine')
-         return
-      end if
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &

@@ -7,7 +7,7 @@ module dondolo_wall_restitution_scatter
    use dondolo_base_fingerprint, only : fingerprint_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief, to_text
-   use dondolo_record_random, only : new_hashed_random, random_type
+   use dondolo_record_random, only : jumps_type, new_hashed_random, random_type
    implicit none
    private
 
@@ -74,19 +74,21 @@ contains
    end function largest
 
    !> A history begins: its ratios depend on the seed and on the record, thus on no other history, and are the same at every level
-   pure subroutine begin(self, record, is_reversed)
+   pure subroutine begin(self, record, is_reversed, jumps)
       class(restitution_scatter_type), intent(inout) :: self
       !> Name of the record
       character(len=*), intent(in) :: record
       !> Whether it acts with the other polarity
       logical, intent(in) :: is_reversed
+      !> Jumps of the random numbers; absent: they are made
+      type(jumps_type), intent(in), optional :: jumps
 
       type(fingerprint_type) :: fingerprint
 
       if (.not. self%exists()) return
       call fingerprint%add_text(record)
       call fingerprint%add_integer(merge(1, 0, is_reversed))
-      self%random = new_hashed_random(self%seed, int(fingerprint%value(1)))
+      self%random = new_hashed_random(self%seed, int(fingerprint%value(1)), jumps)
    end subroutine begin
 
    !> Ratio of the next impact

@@ -13,7 +13,7 @@ module dondolo_base_memory
    implicit none
    private
 
-   public :: check_room, raise_shortage
+   public :: check_room, keep_freed, raise_shortage
 
    !> What all else may take: small things, and the stack of each thread [bytes]
    integer(int64), parameter :: small_things = 2_int64**26, stack = 2_int64**24
@@ -30,6 +30,10 @@ module dondolo_base_memory
       integer(c_int) function c_is_limited() bind(c, name='dondolo_is_limited')
          import :: c_int
       end function c_is_limited
+
+      !> Let the process keep some memory that it gives back; see standard.c
+      subroutine keep_freed() bind(c, name='dondolo_keep_freed')
+      end subroutine keep_freed
 
    end interface
 

@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 /* Write bytes, give them to the system, close a file; 1: done */
 int dondolo_write(const char *bytes, size_t count, FILE *file)
@@ -72,4 +75,19 @@ char *dondolo_modules_elsewhere(char divider)
    }
    *end = '\0';
    return kept;
+}
+
+/* Let the process keep some memory that it gives back, for what is made again and again: to get it anew from the system, page by
+   page, takes longer than to fill it. GNU's library comes to these numbers by itself once it has freed a block of 32 MB. */
+void dondolo_keep_freed(void)
+{
+#ifdef __GLIBC__
+   static volatile int is_done;
+
+   if (is_done)
+      return;
+   is_done = 1;
+   mallopt(M_MMAP_THRESHOLD, 32 << 20);
+   mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
 }

@@ -8,14 +8,15 @@ module dondolo_motion_elastic_filter
    use dondolo_base_kinds, only : wp
    use dondolo_motion_elastic_flow, only : at_level, at_turn, bent_type, elastic_flow_type, longest_angle, new_elastic_flow
    use dondolo_record, only : record_type
+   use dondolo_record_oscillators, only : block_size => block, let_swing => swing, oscillators_type, side_by_side
    use dondolo_wall_elastic_joint, only : elastic_joint_type
    implicit none
    private
 
-   public :: elastic_filter_type, new_elastic_filter
+   public :: elastic_filter_type, new_elastic_filter, new_elastic_filters
 
-   !> Sample intervals of a block
-   integer, parameter :: length = 32
+   !> Sample intervals of a block, and blocks that are filtered at a time
+   integer, parameter :: length = 32, blocks = block_size/length
 
    !> The filter of an accelerogram
    type :: elastic_filter_type
@@ -64,43 +65,108 @@ contains
       type(record_type), intent(in) :: record
       type(elastic_filter_type) :: filter
 
-      type(elastic_flow_type) :: flow
-      type(bent_type) :: state(0:length)
-      real(wp) :: ground(length), x(length), v(length)
-      integer :: first, last, block, i, n
+      type(elastic_filter_type) :: filters(1)
 
-      last = size(record%acceleration) - 1
-      filter%joint = joint
-      call set_step(filter, record%dt)
-      filter%push = joint%lever*record%dt/joint%frequency
-      filter%fading = exp(-joint%damping*joint%frequency*record%dt*real(length, wp))
-      allocate (filter%start((last - 1)/length + 2), filter%reach((last - 1)/length + 1))
-      n = 0
-      do block = 1, size(filter%reach)
-         first = (block - 1)*length
-         state(0) = state(n)
-         n = min(length, last - first)
-         associate (a => record%acceleration(first + 1:first + n + 1))
-            do i = 1, n
-               state(i) = filter_step(filter, state(i - 1), a(i), a(i + 1))
-            end do
-            filter%start(block) = state(0)
-            x(:n) = joint%frequency*state(:n - 1)%x
-            v(:n) = state(:n - 1)%v
-            ground(:n) = max(abs(a(:n)), abs(a(2:)))
-            filter%reach(block) = sqrt(maxval(x(:n)**2 + v(:n)**2))/joint%frequency + filter%push*maxval(ground(:n))
+      call new_elastic_filters(joint, [record], [1], filters)
+      filter = filters(1)
+   end function new_elastic_filter
+
+   !> The filters of several accelerograms, which go side by side
+   pure subroutine new_elastic_filters(joint, records, numbers, filters)
+      type(elastic_joint_type), intent(in) :: joint
+      type(record_type), intent(in) :: records(:)
+      !> Numbers of those that are filtered, no more than go side by side
+      integer, intent(in) :: numbers(:)
+      !> One for each record, empty; those of these numbers are set
+      type(elastic_filter_type), intent(inout) :: filters(:)
+
+      type(oscillators_type) :: oscillators
+      real(wp), dimension(side_by_side, 0:block_size) :: ground, x, v
+      integer :: first, k, longest
+
+      longest = 0
+      ground = 0.0_wp
+      x(:, 0) = 0.0_wp
+      v(:, 0) = 0.0_wp
+      do k = 1, size(numbers)
+         associate (filter => filters(numbers(k)), last => size(records(numbers(k))%acceleration) - 1, dt => records(numbers(k))%dt)
+            filter%joint = joint
+            call set_step(filter, dt)
+            filter%push = joint%lever*dt/joint%frequency
+            filter%fading = exp(-joint%damping*joint%frequency*dt*real(length, wp))
+            allocate (filter%start((last - 1)/length + 2), filter%reach((last - 1)/length + 1))
+            oscillators%by_u(k, :) = filter%by_state(:, 1)
+            oscillators%by_w(k, :) = filter%by_state(:, 2)
+            oscillators%by_start(k, :) = filter%by_ground(:, 1)
+            oscillators%by_end(k, :) = filter%by_ground(:, 2)
+            ground(k, 0) = records(numbers(k))%acceleration(1)
+            longest = max(longest, last)
          end associate
       end do
-      filter%start(size(filter%start)) = state(n)
+      do first = 0, longest - 1, block_size
+         do k = 1, size(numbers)
+            associate (a => records(numbers(k))%acceleration)
+               associate (steps => min(block_size, size(a) - 1 - first))
+                  if (steps > 0) ground(k, 1:steps) = a(first + 2:first + steps + 1)
+               end associate
+            end associate
+         end do
+         call let_swing(oscillators, block_size, ground, x, v)
+         do k = 1, size(numbers)
+            call take_states(filters(numbers(k)), first, size(records(numbers(k))%acceleration) - 1, ground(k, :), x(k, :), v(k, :))
+         end do
+         x(:, 0) = x(:, block_size)
+         v(:, 0) = v(:, block_size)
+         ground(:, 0) = ground(:, block_size)
+      end do
+      do k = 1, size(numbers)
+         call find_largest(filters(numbers(k)), records(numbers(k)))
+      end do
+   end subroutine new_elastic_filters
+
+   !> Take the states of a filter in some blocks
+   pure subroutine take_states(filter, before, last, a, x, v)
+      type(elastic_filter_type), intent(inout) :: filter
+      !> Samples before the first, and number of the last sample interval of the record
+      integer, intent(in) :: before, last
+      !> Acceleration of the ground and states, from the first sample on
+      real(wp), dimension(0:block_size), intent(in) :: a, x, v
+
+      integer :: block, first, i, n
+
+      do i = 1, blocks
+         first = (i - 1)*length
+         n = min(length, last - before - first)
+         if (n <= 0) return
+         block = (before + first)/length + 1
+         associate (amplitude => (filter%joint%frequency*x(first:first + n - 1))**2 + v(first:first + n - 1)**2, &
+            & shaking => max(maxval(abs(a(first:first + n - 1))), maxval(abs(a(first + 1:first + n)))))
+            filter%start(block) = bent_type(x(first), v(first))
+            filter%reach(block) = sqrt(maxval(amplitude))/filter%joint%frequency + filter%push*shaking
+         end associate
+         filter%start(block + 1) = bent_type(x(first + n), v(first + n))
+      end do
+   end subroutine take_states
+
+   !> Find the peak of a filter whose states are known, and its fastest passage
+   pure subroutine find_largest(filter, record)
+      type(elastic_filter_type), intent(inout) :: filter
+      type(record_type), intent(in) :: record
+
+      type(elastic_flow_type) :: flow
+      type(bent_type) :: last
+      integer :: block
+
       ! The block that reaches farthest leaves little to look for in the others.
       call look_in_block(filter, record, maxloc(filter%reach, 1))
       do block = 1, size(filter%reach)
          if (filter%reach(block) > known(filter)) call look_in_block(filter, record, block)
       end do
       ! The swing after the record is largest in its first turn.
-      flow = new_elastic_flow(joint, state(n), 0.0_wp, 0.0_wp)
-      call look_for_largest(filter, flow, record%duration(), joint%period, state(n))
-   end function new_elastic_filter
+      last = filter%start(size(filter%start))
+      flow = new_elastic_flow(filter%joint, last, 0.0_wp, 0.0_wp)
+      call look_for_largest(filter, flow, record%duration(), filter%joint%period, last)
+   end subroutine find_largest
 
    !> Look for the peak and the fastest passage in a block
    pure subroutine look_in_block(filter, record, block)

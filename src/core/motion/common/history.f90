@@ -200,7 +200,7 @@ contains
    end subroutine settle
 
    !> Add the free motion of a wall that still rocks when the record ends
-   pure subroutine add_free_motion(self, mechanism, record, limit, q, v)
+   pure subroutine add_free_motion(self, mechanism, record, limit, q, v, ratio)
       class(history_type), intent(inout) :: self
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
@@ -208,10 +208,12 @@ contains
       real(wp), intent(in) :: limit
       !> Rotation [rad] and angular velocity, positive outwards [rad/s], at the end of the record
       real(wp), intent(in) :: q, v
+      !> Speed ratio of the next impact
+      real(wp), intent(in) :: ratio
 
       type(tail_type) :: tail
 
-      call free_motion(mechanism, limit, self%peak, q, v, tail)
+      call free_motion(mechanism, limit, self%peak, q, v, ratio, tail)
       call self%take_tail(tail, record)
    end subroutine add_free_motion
 

@@ -26,7 +26,7 @@ contains
 
    !> The largest rotation after the end of the record, if it exceeds what was reached before. Most do not: their times, which are
    !> integrals, are not needed then
-   pure subroutine free_motion(mechanism, limit, reached, q, v, tail)
+   pure subroutine free_motion(mechanism, limit, reached, q, v, ratio, tail)
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit
@@ -36,6 +36,8 @@ contains
       real(wp), intent(in) :: q
       !> Angular velocity, positive outwards [rad/s]
       real(wp), intent(in) :: v
+      !> Speed after the next impact / speed before it
+      real(wp), intent(in) :: ratio
       type(tail_type), intent(out) :: tail
 
       real(wp) :: kinetic, energy, energy_left, rest_energy
@@ -46,10 +48,10 @@ contains
       energy = kinetic + mechanism%potential(q)
       ! It falls to q = 0, loses 1 - e^2 of its kinetic energy there, and rises once more.
       rest_energy = mechanism%potential(0.0_wp)
-      energy_left = rest_energy + mechanism%restitution**2*(energy - rest_energy)
+      energy_left = rest_energy + ratio**2*(energy - rest_energy)
       if (.not. energy_left > mechanism%potential(min(reached, limit, mechanism%capacity))) return
       tail%delay = fall_time(mechanism, kinetic, q, 0.0_wp)
-      kinetic = mechanism%restitution**2*max(0.0_wp, kinetic - work_between(mechanism, q, -q))
+      kinetic = ratio**2*max(0.0_wp, kinetic - work_between(mechanism, q, -q))
       call rise(mechanism, limit, reached, 0.0_wp, energy_left, kinetic, tail)
    end subroutine free_motion
 

@@ -34,8 +34,6 @@ contains
 
       constants%wall_constants_type = new_wall_constants(mechanism, solver)
       if (mechanism%joint%exists) constants%fastest = max(constants%fastest, mechanism%joint%frequency)
-      ! Lanes have one speed ratio for all impacts.
-      if (mechanism%scatter%exists()) return
       ! The tighter tolerances of walls with ties are for steps of a lower order.
       constants%solver = solver
       constants%form = new_normal_form(mechanism, constants%limit, is_shaken)

@@ -14,6 +14,7 @@ module dondolo_motion_lane_history
    use dondolo_motion_lane_events, only : find_event, found_type
    use dondolo_motion_lane_ground, only : aim, limit_span, next_sample, stop_between
    use dondolo_motion_lane_restraints, only : lane_restraints_type
+   use dondolo_motion_lane_scatter, only : lane_scatter_type
    use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type
    use dondolo_motion_normal_form, only : power_series, y_limit
    use dondolo_motion_queue, only : queue_type
@@ -55,6 +56,8 @@ module dondolo_motion_lane_history
       type(lane_history_type) :: history(lane_width)
       !> The ties; not allocated for a wall without
       type(lane_restraints_type), allocatable :: restraints
+      !> The speed ratios of impacts; not allocated for a wall with one for all
+      type(lane_scatter_type), allocatable :: scatter
       !> Counts
       type(work_type) :: work
       !> The wall
@@ -98,6 +101,7 @@ contains
          lanes%fifth_a(i) = constants%form%fifth_a
          lanes%released(i) = 0.0_wp
          if (allocated(batch%restraints)) call batch%restraints%begin(constants, lanes, i)
+         if (allocated(batch%scatter)) call batch%scatter%begin(i, batch%records, history%record, history%scale)
          if (associated(batch%trace)) call batch%trace%add(0.0_wp, &
             & history%scale*batch%records(history%record)%acceleration(1), 0.0_wp, 0.0_wp, history%side)
          if (batch%mechanism%joint%exists) then
@@ -252,6 +256,7 @@ contains
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
+      real(wp) :: ratio
       logical :: at_rest
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, &
@@ -262,8 +267,12 @@ contains
          lanes%v(i) = min(lanes%v(i), 0.0_wp)
          if (associated(batch%trace)) call add_row(batch, i)
          if (allocated(batch%restraints)) call batch%restraints%strike(constants, lanes, i, history%rest)
-         call history%strike(history%rest, history%rest%restitution, record, lanes%u(i), lanes%v(i), constants%form%unit, &
-            & at_rest)
+         ratio = history%rest%restitution
+         if (allocated(batch%scatter)) then
+            ratio = batch%scatter%next(i)
+            call batch%scatter%go_on(i)
+         end if
+         call history%strike(history%rest, ratio, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
          if (allocated(batch%restraints)) call batch%restraints%face(constants, lanes, i, history%side, history%peak)
          if (associated(batch%trace)) call add_row(batch, i, after_impact=.true.)
          if (.not. at_rest) then
@@ -464,7 +473,7 @@ contains
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
-      real(wp) :: q, v
+      real(wp) :: q, v, ratio
       type(tail_type) :: tail
       logical :: is_open
 
@@ -474,17 +483,19 @@ contains
          if (is_open) then
             history%interval = interval_of(batch, i)
             call history%end_rocking(record)
+            ratio = batch%mechanism%restitution
+            if (allocated(batch%scatter)) ratio = batch%scatter%next(i)
             if (history%collapsed .or. history%given_up) then
                continue
             else if (allocated(batch%restraints)) then
-               call batch%restraints%after_record(constants, i, lanes%y(i), lanes%v(i), record%duration(), tail)
+               call batch%restraints%after_record(constants, i, ratio, lanes%y(i), lanes%v(i), record%duration(), tail)
                call history%take_tail(tail, record)
             else if (batch%mechanism%joint%exists) then
                call find_motion(batch, i, q, v)
                history%bent = bent_type(q, v)
             else
                call find_motion(batch, i, q, v)
-               call history%add_free_motion(batch%mechanism, record, constants%limit, q, v)
+               call history%add_free_motion(batch%mechanism, record, constants%limit, q, v, ratio)
             end if
          end if
          if (batch%mechanism%joint%exists .and. .not. (history%collapsed .or. history%given_up)) then

@@ -253,11 +253,13 @@ contains
    end subroutine face
 
    !> The motion after the record
-   pure subroutine after_record(self, constants, i, y, v, duration, tail)
+   pure subroutine after_record(self, constants, i, ratio, y, v, duration, tail)
       class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lane
       integer, intent(in) :: i
+      !> Speed ratio of its next impact
+      real(wp), intent(in) :: ratio
       !> Coordinate, and its velocity [1/s], at the end of the record
       real(wp), intent(in) :: y, v
       !> Duration of the record [s]
@@ -268,6 +270,7 @@ contains
 
       associate (state => self%lane(i)%state, wall => self%wall)
          q = constants%form%rotation(y)
+         wall%restitution = ratio
          call wall%set_restraints(state%force, state%stiffness)
          call wall%terms(q, j, c, g, l, load)
          call restrained_motion(wall, state, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &

@@ -62,6 +62,10 @@ contains
          allocate (batch%restraints)
          call batch%restraints%make(mechanism, lane_width)
       end if
+      if (mechanism%scatter%exists()) then
+         allocate (batch%scatter)
+         call batch%scatter%make(mechanism, size(records))
+      end if
       most = most_lanes(size(queue%record), omp_get_num_threads())
       do while (batch%active < most)
          if (.not. is_filled(batch%active + 1)) exit
@@ -193,6 +197,10 @@ contains
          allocate (batch%restraints)
          call batch%restraints%make(mechanism, 1)
       end if
+      if (mechanism%scatter%exists()) then
+         allocate (batch%scatter)
+         call batch%scatter%make(mechanism, size(records))
+      end if
       call begin(batch, 1, 1)
       batch%active = 1
       if (mechanism%joint%exists .and. batch%history(1)%over .and. rocks_on()) call begin_still(batch, 1, 2)
@@ -232,6 +240,7 @@ contains
 
       batch%history(to) = batch%history(from)
       if (allocated(batch%restraints)) call batch%restraints%move(from, to)
+      if (allocated(batch%scatter)) call batch%scatter%move(from, to)
       call move_lane(batch%lanes, from, to)
    end subroutine move
 

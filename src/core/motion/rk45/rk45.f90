@@ -95,7 +95,7 @@ contains
       if (motion%restraints%exists) then
          call finish_ties(wall, constants, record, ending == record_over, motion, trace)
       else if (ending == record_over) then
-         call motion%add_free_motion(wall, record, constants%limit, motion%q, motion%v)
+         call motion%add_free_motion(wall, record, constants%limit, motion%q, motion%v, wall%restitution)
       end if
       call motion%finish(constants, record, response, work)
       if (present(work)) then

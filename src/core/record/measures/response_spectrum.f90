@@ -3,13 +3,15 @@
 !> Within a step the ground acceleration is linear, and the motion of an oscillator follows exactly from its state at
 !> the start (Nigam and Jennings 1969). Its power series in the time within the step gives the coefficients of the
 !> recursion without the cancellation of their closed form. Steps longer than a tenth of the period are divided, so that
-!> the series is short. The peak is that of the continuous motion: where a bound says that the motion between two
-!> samples may exceed the largest so far, the turning point is found. After the record the oscillator swings freely, and
-!> that counts too.
+!> the series is short. Oscillators of several periods swing side by side, in blocks (dondolo_record_oscillators). The peak is
+!> that of the continuous motion: where a bound says that the motion of a block may exceed the largest so far, its steps are
+!> looked at, and in those in which it may, the turning point is found. After the record the oscillator swings freely, and that
+!> counts too.
 module dondolo_record_response_spectrum
    use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : pi, wp
    use dondolo_record, only : record_type
+   use dondolo_record_oscillators, only : block, lanes => side_by_side, let_swing => swing, oscillators_type
    implicit none
    private
 
@@ -30,9 +32,6 @@ module dondolo_record_response_spectrum
 
    !> Longest power series
    integer, parameter :: terms = 40
-
-   !> Oscillators that are stepped together
-   integer, parameter :: lanes = 16
 
 contains
 
@@ -92,12 +91,12 @@ contains
       !> Largest displacements [m]
       real(wp), intent(out) :: peak(lanes)
 
-      ! The motion of each lane in units of time of one step: displacement u, velocity w = h du/dt, q = h**2 d2u/dt2
-      real(wp), dimension(lanes) :: u, w, q, u_new, w_new, q_new
-      ! Coefficients of the new u and w: of u, of w, and of the start and the rise of the ground acceleration
-      real(wp), dimension(lanes) :: uu, uw, us, ur, wu, ww, ws, wr, damper, spring, curb
-      real(wp) :: h, start, finish, excess, c(0:terms)
-      integer :: i, j, k, order(lanes)
+      ! The motion of each lane in units of a step h, and displacements over h**2: u, w = u', q = u''
+      type(oscillators_type) :: oscillators
+      real(wp), dimension(lanes, 0:block) :: ground, u, w
+      real(wp), dimension(lanes) :: damper, spring, curb, high, bend
+      real(wp) :: h, q
+      integer :: i, k, first, steps, order(lanes)
 
       h = record%dt/real(parts, wp)
       damper = 2.0_wp*damping*(2.0_wp*pi*h/periods)
@@ -107,58 +106,105 @@ contains
       curb = exp(0.5_wp*damper)/cos(pi*h/periods)/8.0_wp
       do k = 1, lanes
          order(k) = order_of(spring(k))
-         associate (n => order(k))
-            c(:n) = series(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, damper(k), spring(k), n)
-            uu(k) = value(c(:n), 1.0_wp)
-            wu(k) = value(derivative(c(:n)), 1.0_wp)
-            c(:n) = series(0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, damper(k), spring(k), n)
-            uw(k) = value(c(:n), 1.0_wp)
-            ww(k) = value(derivative(c(:n)), 1.0_wp)
-            c(:n) = series(0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, damper(k), spring(k), n)
-            us(k) = value(c(:n), 1.0_wp)
-            ws(k) = value(derivative(c(:n)), 1.0_wp)
-            c(:n) = series(0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, damper(k), spring(k), n)
-            ur(k) = value(c(:n), 1.0_wp)
-            wr(k) = value(derivative(c(:n)), 1.0_wp)
-         end associate
+         call set_step(oscillators, k, damper(k), spring(k), order(k))
       end do
-      u = 0.0_wp
-      w = 0.0_wp
+      u(:, 0) = 0.0_wp
+      w(:, 0) = 0.0_wp
       peak = 0.0_wp
-      start = h**2*record%acceleration(1)
-      q = -start
-      do i = 2, size(record%acceleration)
-         do j = 1, parts
-            finish = h**2*(record%acceleration(i - 1) &
-               & + (record%acceleration(i) - record%acceleration(i - 1))*real(j, wp)/real(parts, wp))
-            if (j == parts) finish = h**2*record%acceleration(i)
-            excess = -1.0_wp
-            !$omp simd reduction(max:excess)
-            do k = 1, lanes
-               u_new(k) = uu(k)*u(k) + uw(k)*w(k) + (us(k)*start + ur(k)*(finish - start))
-               w_new(k) = wu(k)*u(k) + ww(k)*w(k) + (ws(k)*start + wr(k)*(finish - start))
-               q_new(k) = -(finish + damper(k)*w_new(k) + spring(k)*u_new(k))
-               peak(k) = max(peak(k), abs(u_new(k)))
-               excess = max(excess, max(abs(u(k)), abs(u_new(k))) + curb(k)*max(abs(q(k)), abs(q_new(k))) - peak(k))
+      associate (a => record%acceleration)
+         ground(:, 0) = a(1)
+         do first = 0, (size(a) - 1)*parts - 1, block
+            steps = min(block, (size(a) - 1)*parts - first)
+            do i = 1, steps
+               associate (sample => (first + i - 1)/parts + 1, part => modulo(first + i - 1, parts) + 1)
+                  ground(:, i) = a(sample + 1)
+                  if (part < parts) ground(:, i) = a(sample) + (a(sample + 1) - a(sample))*real(part, wp)/real(parts, wp)
+               end associate
             end do
-            if (excess > 0.0_wp) then
+            call let_swing(oscillators, steps, ground, u, w)
+            high = 0.0_wp
+            bend = 0.0_wp
+            do i = 0, steps
+               !$omp simd private(q)
                do k = 1, lanes
-                  if (.not. max(abs(u(k)), abs(u_new(k))) + curb(k)*max(abs(q(k)), abs(q_new(k))) > peak(k)) cycle
-                  ! The velocity vanishes within the step if it changes sign, or if it turns towards zero and back
-                  if (w(k)*w_new(k) < 0.0_wp .or. (q(k)*w(k) < 0.0_wp .and. q_new(k)*w_new(k) > 0.0_wp)) then
-                     peak(k) = max(peak(k), &
-                      & turn(series(u(k), w(k), start, finish - start, damper(k), spring(k), order(k))))
-                  end if
+                  q = ground(k, i) + (damper(k)*w(k, i) + spring(k)*u(k, i))
+                  high(k) = max(high(k), abs(u(k, i)))
+                  bend(k) = max(bend(k), abs(q))
                end do
-            end if
-            u = u_new
-            w = w_new
-            q = q_new
-            start = finish
+            end do
+            do k = 1, lanes
+               if (high(k) + curb(k)*bend(k) > peak(k)) call look_in_block(ground(k, :steps), u(k, :steps), w(k, :steps), &
+                  & damper(k), spring(k), order(k), curb(k), peak(k))
+            end do
+            u(:, 0) = u(:, steps)
+            w(:, 0) = w(:, steps)
+            ground(:, 0) = ground(:, steps)
          end do
-      end do
-      peak = max(peak, last_swing(u, w/h, periods, damping))
+      end associate
+      peak = h**2*max(peak, last_swing(u(:, 0), w(:, 0)/h, periods, damping))
+
    end subroutine swing
+
+   !> Look for a new peak in the steps of a block
+   pure subroutine look_in_block(ground, u, w, damper, spring, n, curb, peak)
+      !> Acceleration of the ground, displacement and velocity of an oscillator, from the start of the first step
+      real(wp), intent(in) :: ground(0:), u(0:), w(0:)
+      !> 2 zeta omega h, and (omega h)**2
+      real(wp), intent(in) :: damper, spring
+      !> Order of the power series
+      integer, intent(in) :: n
+      !> What the displacement exceeds its ends by in a step, over the acceleration there
+      real(wp), intent(in) :: curb
+      !> Largest displacement so far
+      real(wp), intent(inout) :: peak
+
+      real(wp) :: before, after
+      integer :: i
+
+      after = -(ground(0) + damper*w(0) + spring*u(0))
+      do i = 1, ubound(u, 1)
+         before = after
+         after = -(ground(i) + damper*w(i) + spring*u(i))
+         peak = max(peak, abs(u(i)))
+         if (.not. max(abs(u(i - 1)), abs(u(i))) + curb*max(abs(before), abs(after)) > peak) cycle
+         ! The velocity vanishes within the step if it changes sign, or if it turns towards zero and back
+         if (w(i - 1)*w(i) < 0.0_wp .or. (before*w(i - 1) < 0.0_wp .and. after*w(i) > 0.0_wp)) peak = max(peak, &
+            & turn(series(u(i - 1), w(i - 1), ground(i - 1), ground(i) - ground(i - 1), damper, spring, n)))
+      end do
+   end subroutine look_in_block
+
+   !> Set what an oscillator becomes in a step
+   pure subroutine set_step(oscillators, k, damper, spring, n)
+      type(oscillators_type), intent(inout) :: oscillators
+      !> Its number
+      integer, intent(in) :: k
+      !> 2 zeta omega h
+      real(wp), intent(in) :: damper
+      !> (omega h)**2
+      real(wp), intent(in) :: spring
+      !> Order of the power series
+      integer, intent(in) :: n
+
+      real(wp) :: rise(2)
+
+      oscillators%by_u(k, :) = at_end(series(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, damper, spring, n))
+      oscillators%by_w(k, :) = at_end(series(0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, damper, spring, n))
+      rise = at_end(series(0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, damper, spring, n))
+      oscillators%by_start(k, :) = at_end(series(0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, damper, spring, n)) - rise
+      oscillators%by_end(k, :) = rise
+
+   contains
+
+      !> Displacement and velocity at the end of the step
+      pure function at_end(c) result(state)
+         !> Power series of the displacement
+         real(wp), intent(in) :: c(0:)
+         real(wp) :: state(2)
+
+         state = [value(c, 1.0_wp), value(derivative(c), 1.0_wp)]
+      end function at_end
+
+   end subroutine set_step
 
    !> Order of a power series whose next terms are below rounding: they fall as (omega h)**n / n!
    pure function order_of(spring) result(n)

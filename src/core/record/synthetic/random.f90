@@ -16,6 +16,7 @@ module dondolo_record_random
    private
 
    public :: random_type, new_random, new_hashed_random, split_mix
+   public :: jumps_type, new_jumps
 
    !> Modulus of the first recursion
    integer(int64), parameter :: m1 = 4294967087_int64
@@ -37,8 +38,11 @@ module dondolo_record_random
    integer(int64), parameter :: first_factor(limbs) = [integer(int64) :: 58809, 7396, 18285, 48984]
    integer(int64), parameter :: second_factor(limbs) = [integer(int64) :: 4587, 4913, 18875, 38096]
 
-   !> log2 of the distance between two streams
-   integer, parameter :: log2_stream_distance = 127
+   !> Matrices of both recursions to the power 2**127, the distance between two streams, column by column
+   integer(int64), parameter :: to_next_x(3, 3) = reshape([2427906178_int64, 226153695_int64, 1988835001_int64, &
+      & 3580155704_int64, 1230515664_int64, 986791581_int64, 949770784_int64, 3580155704_int64, 1230515664_int64], [3, 3])
+   integer(int64), parameter :: to_next_y(3, 3) = reshape([1464411153_int64, 32183930_int64, 2824425944_int64, &
+      & 277697599_int64, 1464411153_int64, 32183930_int64, 1610723613_int64, 1022607788_int64, 2093834863_int64], [3, 3])
 
    !> A generator: its state
    type :: random_type
@@ -54,7 +58,27 @@ module dondolo_record_random
       procedure :: draw
    end type random_type
 
+   !> Jumps to streams: the powers of these matrices by the binary digits of a stream's number
+   type :: jumps_type
+      private
+      integer(int64) :: x(3, 3, digits(1)) = 0, y(3, 3, digits(1)) = 0
+   end type jumps_type
+
 contains
+
+   !> Jumps to streams, for generators of which many are started
+   pure function new_jumps() result(jumps)
+      type(jumps_type) :: jumps
+
+      integer :: i
+
+      jumps%x(:, :, 1) = to_next_x
+      jumps%y(:, :, 1) = to_next_y
+      do i = 2, digits(1)
+         jumps%x(:, :, i) = product_modulo(jumps%x(:, :, i - 1), jumps%x(:, :, i - 1), m1)
+         jumps%y(:, :, i) = product_modulo(jumps%y(:, :, i - 1), jumps%y(:, :, i - 1), m2)
+      end do
+   end function new_jumps
 
    !> Start a generator whose state is the seed
    pure function new_random(seed, stream) result(random)
@@ -67,15 +91,17 @@ contains
 
       random%x = int(seed, int64)
       random%y = int(seed, int64)
-      call jump(random, stream)
+      call jump(random, stream, new_jumps())
    end function new_random
 
    !> Start a generator whose state is a hash of the seed: no number of one seed follows from those of another
-   pure function new_hashed_random(seed, stream) result(random)
+   pure function new_hashed_random(seed, stream, jumps) result(random)
       !> Seed, positive
       integer, intent(in) :: seed
       !> Number of the stream, from 0
       integer, intent(in) :: stream
+      !> Jumps to streams; absent: they are made
+      type(jumps_type), intent(in), optional :: jumps
       !> Generator at the beginning of the stream
       type(random_type) :: random
 
@@ -90,7 +116,11 @@ contains
          if (i <= 3) random%x(i) = 1 + modulo(word, m1 - 1)
          if (i > 3) random%y(i - 3) = 1 + modulo(word, m2 - 1)
       end do
-      call jump(random, stream)
+      if (present(jumps)) then
+         call jump(random, stream, jumps)
+      else
+         call jump(random, stream, new_jumps())
+      end if
    end function new_hashed_random
 
    !> The next word of SplitMix64
@@ -159,30 +189,18 @@ contains
    end function carried
 
    !> Jump from the beginning of stream 0 to that of another
-   pure subroutine jump(random, stream)
+   pure subroutine jump(random, stream, jumps)
       type(random_type), intent(inout) :: random
       !> Number of the stream, from 0
       integer, intent(in) :: stream
+      type(jumps_type), intent(in) :: jumps
 
-      integer(int64) :: a(3, 3), b(3, 3)
-      integer :: i, rest
+      integer :: i
 
-      a = transpose(reshape([0_int64, 1_int64, 0_int64, 0_int64, 0_int64, 1_int64, m1 - a13, a12, 0_int64], [3, 3]))
-      b = transpose(reshape([0_int64, 1_int64, 0_int64, 0_int64, 0_int64, 1_int64, m2 - a23, 0_int64, a21], [3, 3]))
-      do i = 1, log2_stream_distance
-         a = product_modulo(a, a, m1)
-         b = product_modulo(b, b, m2)
-      end do
-      ! Powers of these by the binary digits of the stream's number
-      rest = stream
-      do while (rest > 0)
-         if (modulo(rest, 2) == 1) then
-            random%x = reshape(product_modulo(a, reshape(random%x, [3, 1]), m1), [3])
-            random%y = reshape(product_modulo(b, reshape(random%y, [3, 1]), m2), [3])
-         end if
-         a = product_modulo(a, a, m1)
-         b = product_modulo(b, b, m2)
-         rest = rest/2
+      do i = 1, digits(stream)
+         if (.not. btest(stream, i - 1)) cycle
+         random%x = reshape(product_modulo(jumps%x(:, :, i), reshape(random%x, [3, 1]), m1), [3])
+         random%y = reshape(product_modulo(jumps%y(:, :, i), reshape(random%y, [3, 1]), m2), [3])
       end do
    end subroutine jump
 
@@ -223,8 +241,8 @@ contains
       !> a b modulo m
       integer(int64) :: c(size(a, 1), size(b, 2))
 
-      !> Factors are cut into halves of 16 bits, so that products stay below 2**63
-      integer(int64), parameter :: half = 65536_int64
+      !> Factors are cut into halves of 16 bits, so that products stay below 2**48, and sums of all of them below 2**63
+      integer, parameter :: half = 16
       integer(int64) :: high
       integer :: i, j, k
 
@@ -232,11 +250,12 @@ contains
       do j = 1, size(b, 2)
          do k = 1, size(a, 2)
             do i = 1, size(a, 1)
-               high = modulo((a(i, k)/half)*b(k, j), m)
-               c(i, j) = modulo(c(i, j) + high*half + modulo(a(i, k), half)*b(k, j), m)
+               high = modulo(ishft(a(i, k), -half)*b(k, j), m)
+               c(i, j) = c(i, j) + ishft(high, half) + ibits(a(i, k), 0, half)*b(k, j)
             end do
          end do
       end do
+      c = modulo(c, m)
    end function product_modulo
 
 end module dondolo_record_random

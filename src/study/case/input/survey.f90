@@ -178,8 +178,6 @@ contains
       call add_once(used, wall%mechanism_name())
       call add_once(used, wall%mechanism_name()//'/'//wall%input%word('restitution'))
       if (allocated(wall%building)) call add_once(used, 'building')
-      ! The engine that has a speed ratio for each impact
-      if (wall%mechanism%scatter%exists()) call add_once(used, 'rk45')
    end subroutine add_wall_words
 
    !> Note the file of a tabulated wall, or those of a chain, and how far its polynomials miss its table
