@@ -1,9 +1,9 @@
 """What must be right before a release, and what a person must then do: python release.py texts | files FIRST SECOND
 
 texts: the version is the same everywhere, CHANGELOG.md and CITATION.cff have its date, the licences are there, and
-pages name files of this version. files: the files of two builds of a commit are the same to the byte, and hold what they
-must. Either prints a line for each thing and ends with 1 if one is wrong. What only waits for a person, such as the date, is
-printed as "to do".
+pages name files of this version. files: the files of two builds of a commit are the same to the byte, and hold what
+they must. Either prints a line for each thing and ends with 1 if one is wrong. What only waits for a person, such as
+the date, is printed as "to do".
 """
 
 import hashlib
