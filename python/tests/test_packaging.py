@@ -260,6 +260,15 @@ def test_workflows_are_pinned_and_may_only_read(root):
         assert re.search(r"^permissions:(\n  contents: read| \{\})$", text, re.M), path.name
 
 
+def test_lines_of_the_page(root):
+    """At most 120 columns, texts too, which no formatter breaks; the table of the site is one line by design."""
+    paths = [*(root / "python/dondolo/serve/page").glob("*.js"), root / "docs/site/static/curve.js"]
+    assert len(paths) > 7
+    for path in paths:
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            assert len(line) <= 120, f"{path.name}:{number}"
+
+
 def test_recipes_get_the_checksum_of_a_release(root, tmp_path):
     """That of the sdist, in both recipes; another version is refused."""
     version = tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
