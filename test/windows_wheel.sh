@@ -24,7 +24,7 @@ python3 -m zipfile -e "$given"/wheels/pip-*.whl "$prefix/Lib/site-packages"
 
 # in_wine PROGRAM WORDS...: sets rc, and the file said to what it prints. Python for Windows takes no file of Wine for its standard streams.
 in_wine() {
-   echo | timeout "${limit:-300}" $wine "$@" 2>&1 | tr -d '\r' >"$work/said"
+   echo | timeout 300 $wine "$@" 2>&1 | tr -d '\r' >"$work/said"
    rc=${PIPESTATUS[1]}
 }
 python() { in_wine "$prefix/python.exe" "$@"; }
@@ -221,18 +221,6 @@ PYTHON
 words=("$wine" "$prefix/python.exe" long.py)
 timeout 200 script -qec "${words[*]@Q}" "$work/console" </dev/null >/dev/null
 check "Ctrl-C: a call is interrupted" contains interrupted "in order"
-
-# --- the fast tests of the package that need nothing but it ---------------------------------------------------------
-
-cd "$place/wheels" || exit 1
-runs "pip install of the tests" -m pip install --quiet --disable-pip-version-check --no-compile --no-index --find-links . \
-   pytest hypothesis openpyxl
-cd "$root/python/tests" || exit 1
-mapfile -t tests <"$root/test/windows_tests.txt"
-export PYTHONDONTWRITEBYTECODE=1
-limit=900 runs "the fast tests" -m pytest -m 'not slow' -p no:cacheprovider --color=no "${tests[@]}"
-sed -n '/^FAILED\|^ERROR\| passed/p' "$work/said"
-echo "fast tests: $SECONDS s"
 echo "wheel for Windows: $SECONDS s"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
