@@ -79,6 +79,8 @@ contains
       type(sheet_type), intent(in) :: sheet
 
       integer, parameter :: width = 12
+      !> Above 1 by more than products of rounded numbers are
+      real(wp), parameter :: rounding = 1.0_wp + 1.0e-9_wp
       character(len=:), allocatable :: line
       real(wp) :: capacity, demand
       integer :: i
@@ -90,8 +92,8 @@ contains
       do i = 1, size(check_states)
          line = check_methods(i)//' '//check_states(i)//' '
          if (sheet%is_all_one(check_methods(i), 'applicable', check_states(i))) then
-            capacity = sheet%value('nonlinear', check_states(i), 'displacement')
-            demand = sheet%value('nonlinear', check_states(i), 'demand')
+            capacity = sheet%value(taken(), check_states(i), 'displacement')
+            demand = sheet%value(taken(), check_states(i), 'demand')
             if (check_methods(i) == 'linear') then
                capacity = sheet%value('mechanism', '', 'a_0')
                if (check_states(i) == 'SLV') capacity = capacity*sheet%value('linear', 'SLV', 'behaviour')
@@ -104,6 +106,14 @@ contains
             line = line//'  not applicable: '//trim(reason())
          end if
          write (output_unit, '(a)') trim(line)
+      end do
+      do i = 1, size(check_states)
+         if (check_methods(i) /= 'nonlinear' .or. .not. sheet%has_ratios()) cycle
+         if (taken() == 'untied') write (output_unit, '(a)') 'nonlinear '//check_states(i)//': without the ties whose anchors '// &
+            & 'or bars would lower it, see the note'
+         if (sheet%value('nonlinear', check_states(i), 'ratio')*sheet%value(taken(), check_states(i), 'demand') > &
+            & rounding*sheet%value(taken(), check_states(i), 'displacement')) write (output_unit, '(a)') 'nonlinear '// &
+            & check_states(i)//': the ratio is that of accelerations at activation, which is greater (C8.7.1.2.1.8)'
       end do
       if (has_curve()) write (output_unit, '(a)') 'P(collapse): by the fragility curve, with its 95 % interval, at the peak '// &
          & 'acceleration that the check allows and at that of the site'
@@ -118,6 +128,15 @@ contains
          if (sheet%lacks_modulus()) reason = 'a free element without young_modulus'
          if (.not. sheet%has_ratios()) reason = 'no spectrum at the level of the wall'
       end function reason
+
+      !> The curve that a nonlinear check takes: with all ties, or without some
+      function taken() result(method)
+         character(len=:), allocatable :: method
+
+         method = 'nonlinear'
+         if (sheet%value('nonlinear', check_states(i), 'less_zeta') > sheet%value('nonlinear', check_states(i), 'tied_zeta')) &
+            & method = 'untied'
+      end function taken
 
       !> Does the sheet have probabilities?
       logical function has_curve()

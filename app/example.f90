@@ -12,9 +12,9 @@ module dondolo_example
 
    !> The cases in data/cases
    character(len=*), parameter :: example_names(*) = [character(len=19) :: &
-      & 'compound', 'corner', 'designs', 'elastic_strip', 'facade', 'facade_hinges', 'facade_strip', 'facades', 'gable', &
-      & 'garden_wall', 'historic_centre', 'history', 'parapet', 'parapet_on_building', 'pinnacle', 'population', 'portal', &
-      & 'tied_facade', 'two_block', 'uncertain_strip']
+      & 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade', 'facade_hinges', 'facade_strip', 'facades', &
+      & 'gable', 'garden_wall', 'historic_centre', 'history', 'panel', 'parapet', 'parapet_on_building', 'pinnacle', &
+      & 'population', 'portal', 'tied_facade', 'two_block', 'uncertain_strip']
 
    !> How the cases say that they run from the repository
    character(len=*), parameter :: from_repository = 'from the root of the repository: dondolo data/cases/'

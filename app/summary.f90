@@ -271,6 +271,14 @@ contains
          & ' histories in double precision, '//to_text(count(row%certified%status == in_quadruple))// &
          & ' in 33 digits, '//to_text(count(row%certified%status == not_computable))// &
          & ' not computable from this input'
+      associate (bounds => row%bounds(size(row%bounds)))
+         if (bounds%rounded > 0) then
+            write (output_unit, '(a)') 'within half a unit of the last printed digit of the records, '// &
+               & to_text(bounds%changed)//' of '//to_text(bounds%rounded)//' outcomes change'
+         else
+            write (output_unit, '(a)') 'the records have no printed digits whose rounding could be tried'
+         end if
+      end associate
       if (.not. any(row%certified%status == not_computable)) return
       do k = 1, size(row%bounds)
          state = ''

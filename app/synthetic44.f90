@@ -26,7 +26,7 @@ program synthetic44_program
    open (newunit=catalogue, file=folder//'/'//name//'.csv', action='write')
    write (catalogue, '(a)') &
       & '# Synthetic accelerograms (no recordings), model of Sabetta and Pugliese (1996): see dondolo_synthetic', &
-      & 'file,dt_s,units,event,magnitude,distance_km,site,component,pga_m_s2'
+      & 'file,dt_s,units,format,event,magnitude,distance_km,site,component,pga_m_s2'
    do scenario = 1, size(synthetic44)
       chosen = synthetic44(scenario)
       do component = 1, 2
@@ -37,7 +37,7 @@ program synthetic44_program
          end if
          file = name//'/'//record%name//'.txt'
          call write_column(folder//'/'//file, record%acceleration)
-         write (catalogue, '(*(a))') file, ',', to_text(record%dt), ',m/s2,', trim(chosen%name), ',', &
+         write (catalogue, '(*(a))') file, ',', to_text(record%dt), ',m/s2,synthetic,', trim(chosen%name), ',', &
             & to_text(chosen%magnitude), ',', to_text(chosen%distance), ',', trim(chosen%site), ',', &
             & record%name(len(record%name):), ',', to_text(anint(1.0e4_wp*record%pga())/1.0e4_wp)
       end do

@@ -4,7 +4,7 @@ module dondolo_union_lines
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
-   use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts
+   use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts, verdict_type
    use dondolo_case_results, only : results_type, shown_rows
    use dondolo_files_probability, only : probability_text
    use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, occurring, print_fit
@@ -182,13 +182,13 @@ contains
          if (verdicts%checked == 0) return
          longest = 0
          do i = 1, min(verdicts%checked, shown_verdicts)
-            longest = max(longest, len(verdicts%first(i)%name))
+            longest = max(longest, len(name_of(verdicts%first, i)))
          end do
          write (output_unit, '(a, a10, 4a15, a13)') left('capacity / demand', name_width(longest)), 'alpha_0', &
             & (right(trim(check_methods(k))//' '//check_states(k), 15), k=1, size(check_states)), 'P at a_g S'
          do i = 1, min(verdicts%checked, shown_verdicts)
             associate (verdict => verdicts%first(i))
-               write (output_unit, '(a, a10, 4a15, a13)') left(verdict%name, name_width(longest)), &
+               write (output_unit, '(a, a10, 4a15, a13)') left(name_of(verdicts%first, i), name_width(longest)), &
                   & right(rounded(verdict%multiplier), 10), &
                   & (ratio_of(verdict%ratio(k), verdict%is_applicable(k)), k=1, size(check_states)), in_column(verdict%probability)
             end associate
@@ -205,6 +205,22 @@ contains
       end associate
 
    contains
+
+      !> Name of a wall, with its mechanism where another of the first rows has the same name
+      function name_of(first, i) result(name)
+         type(verdict_type), intent(in) :: first(:)
+         integer, intent(in) :: i
+         character(len=:), allocatable :: name
+
+         integer :: k
+
+         name = first(i)%name
+         do k = 1, min(results%verdicts%checked, size(first))
+            if (k == i .or. first(k)%name /= first(i)%name) cycle
+            name = name//', '//first(i)%mechanism
+            return
+         end do
+      end function name_of
 
       !> Capacity / demand in its column, of a check that is one for the wall
       function ratio_of(ratio, is_applicable) result(cell)
@@ -235,6 +251,8 @@ contains
          real(wp) :: chances(1, union%rows(1):union%rows(2)), whole(1)
          real(wp), allocatable :: p_occ(:)
          integer, allocatable :: alternative(:)
+         !> What independent mechanisms would give; empty where never two occur, for which it is the same
+         character(len=:), allocatable :: independent
          integer :: k, last
 
          last = size(union%curve)
@@ -248,10 +266,14 @@ contains
          associate (population => results%population)
             call population%get_occurrence(population%rows + population%row(union%rows(1))%wall, p_occ, alternative)
          end associate
-         whole = wall_probability(p_occ, alternative, chances)
+         independent = ''
+         if (results%population%can_coincide(results%population%row(union%rows(1))%wall)) then
+            whole = wall_probability(p_occ, alternative, chances)
+            independent = '; taken as independent '//trim(probability_text(whole(1)))
+         end if
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
             & trim(probability_text(max(union%upper_asymptote*union%curve(last)%probability(pga), maxval(p_occ*chances(1, :)))))// &
-            & '; taken as independent '//trim(probability_text(whole(1)))
+            & independent
       end subroutine print_chance
 
    end subroutine print_verdict_rows

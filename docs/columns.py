@@ -69,6 +69,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "edp_lowest": f"lower bound of the EDP, only with {_CERTIFIED}; another one than `edp_highest` only if"
             " `not_computable`",
             "edp_highest": "upper bound; likewise",
+            "edp_rounded": "EDP with every sample of the record moved within half a unit of its last printed digit;"
+            " likewise; empty: it is not known how the record was printed",
             "uplift": "whether the ground accelerates downwards by g or more at some instant; only of one wall under"
             " [vertical motion](../ground_motions.md#vertical-motion)",
         },
@@ -238,7 +240,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
     "calculation": (
         "With these α₀, M* and e* can be repeated by hand. α₀ is the sum of `stabilising_nm_m` less that of"
         " `overturning_nm_m`, over that of `force_lever_nm_m`; M* is the square of the last, over g and the sum of"
-        " `force_lever2_nm2_m`.",
+        " `force_lever2_nm2_m`. Of a corner or a chain, whose forces are those of the whole, names end without `_m`:"
+        " `force_n`, `stabilising_nm`, `force_lever2_nm2` ...",
         {
             "item": "`section 1` ..., from the bottom, and `masonry`, all of them as one body; `load 1` ..., `mass 1`"
             " ..., `thrust 1` ..., `tie 1` ..., `friction 1` ...; of a strip `lower block`, `upper block`,"

@@ -38,6 +38,7 @@ html_sidebars = {"tutorial/first_wall": []}
 page = "../python/dondolo/serve/page"
 html_static_path = ["site/static", f"{page}/chart.js", f"{page}/words.js"]
 html_css_files = ["site.css"]
+html_favicon = "site/static/favicon.svg"
 copybutton_prompt_text = "$ "
 
 

@@ -1,4 +1,4 @@
-"""Measure what docs/facades.md says: DONDOLO_RECORDS=FOLDER python docs/facades.py."""
+"""Measure what docs/studies/curves.md says of facades: DONDOLO_RECORDS=FOLDER python docs/facades.py."""
 
 import os
 

@@ -52,6 +52,8 @@ def main() -> None:
     interlocking()
     compound()
     corner()
+    panel()
+    six_mechanisms()
     processing()
     pulses()
     overturning()
@@ -460,6 +462,45 @@ def corner():
     axes[1].plot(angles, [cracked(a).trigger_acceleration / 9.81 for a in angles], color=style.BLUE, linewidth=1.8)
     axes[1].set(xlabel="angle of the cracks [degrees]", ylabel="multiplier", xlim=(0.0, 35.0), ylim=(0.0, None))
     figure.savefig(figures / "corner.png", dpi=100)
+
+
+def panel():
+    """Draw the elevation of a facade whose part above an inclined crack turns, and this panel in its section."""
+    wall = dd.OneSidedWall(
+        thickness=0.5, density=1900.0, facade_length=6.0, hinge_depth=0.02, elevation_x=[0.0, 6.0, 6.0, 0.0],
+        elevation_z=[0.0, 0.0, 6.5, 6.5], axis_x=[0.0, 6.0], axis_z=[5.0, 3.4], name="panel",
+        openings=[dd.Opening(x=x, z=4.0, width=0.9, height=1.4) for x in (0.8, 4.3)],
+        loads=[dd.Load(1e3, x=5.0, depth=0.3, height=6.4, inertia="both")],
+    )  # fmt: skip
+    figure, axes = new_axes(1, 2, (9.0, 4.4), width_ratios=(1.6, 1.0))
+    wall.plot_elevation(axes[0])
+    wall.plot(axes[1], rotation=0.08)
+    axes[1].set_title("rotated by 0.08 rad", loc="left")
+    figure.savefig(figures / "panel.png", dpi=100)
+
+
+def six_mechanisms():
+    """Draw the mechanisms that are usual in practice beside each other."""
+    wedge = dd.Wedge(thickness=0.45, angle=20.0, bottom=0.0, top=6.0, length=9.0)
+    band = dd.horizontal_bending(4.0, 0.5, 1900.0, thrust=25e3, hinge_depth=0.02, sides=2, restitution_value=0.7)
+    portal = dd.arch(1.75, 0.5, 180.0, voussoirs=8, pier=(1.0, 3.5), density=1900.0, sides=2, restitution_value=0.8)
+    drawn = {
+        "simple overturning": (dd.OneSidedWall(6.0, 0.5, hinge_depth=0.02), 0.05),
+        "compound overturning": (
+            dd.OneSidedWall(6.0, 0.5, hinge_depth=0.02, facade_length=6.0, wedges=[wedge, wedge]), 0.05
+        ),
+        "corner, on its bisector": (dd.Corner(3.2, 0.5, wing_angle=20.0, hinge_depth=0.03), 0.08),
+        "vertical bending": (dd.TwoBlockWall(3.2, 0.3, hinge=0.6), 0.08),
+        "horizontal bending (plan)": (band, 0.08),
+        "arch on piers": (portal, 0.08),
+    }  # fmt: skip
+    figure, axes = new_axes(2, 3, (9.0, 7.4))
+    for ax, (title, (wall, rotation)) in zip(axes.flat, drawn.items(), strict=True):
+        wall.plot(ax, rotation=rotation)
+        ax.set_title(title, loc="left")
+        if wall is band:
+            ax.set(xlim=(-2.0, 1.5), ylim=(-0.4, 5.2), ylabel="along the wall [m]")
+    figure.savefig(figures / "six_mechanisms.png", dpi=100)
 
 
 def processing():

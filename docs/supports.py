@@ -1,4 +1,4 @@
-"""Measure what docs/supports.md says: DONDOLO_RECORDS=FOLDER python docs/supports.py."""
+"""Measure what docs/studies/curves.md says of supports: DONDOLO_RECORDS=FOLDER python docs/supports.py."""
 
 import os
 

@@ -600,6 +600,15 @@ contains
             if (what /= 'opening_width') call input%set('opening_width', [0.05_wp, 0.05_wp])
             if (what /= 'opening_height') call input%set('opening_height', [0.05_wp, 0.05_wp])
          end if
+      case ('axis_x', 'axis_z', 'load_x', 'inertia_x', 'thrust_x', 'half_gable')
+         ! A panel that is 3 m high above a line that rises by 3 in 4
+         call input%set('facade_length', 4.0_wp)
+         call input%set('elevation_x', [0.0_wp, 4.0_wp, 0.0_wp])
+         call input%set('elevation_z', [0.0_wp, 3.0_wp, 3.75_wp])
+         call input%set('axis_x', [0.0_wp, 4.0_wp])
+         call input%set('axis_z', [0.0_wp, 3.0_wp])
+         if (index(what, '_x') > 0 .and. what /= 'axis_x') call input%set(what, [0.1_wp, 0.2_wp])
+         if (what == 'load_x') call input%set('load_inertia', 'both')
       case ('load_lifted')
          call input%set('load_pushed', [0.5_wp, 0.5_wp])
       case ('load_pushed')

@@ -23,20 +23,28 @@ def opening() -> list[str]:
     """What the page is."""
     return [
         *markdown.paragraph(
-            "This page puts what dondolo computes beside what was measured in the laboratory, campaign by campaign."
-            " Restitution, hinges, damping, the rule of collapse and the processing of motions were never tuned to an"
-            " outcome. Results that speak against dondolo stay here."
+            "This page compares dondolo with laboratory measurements. Restitution, hinges, damping, the collapse"
+            " criterion and the processing of motions were never tuned to an outcome. Results that speak against"
+            " dondolo stay here."
         ),
         *markdown.paragraph(
-            "`./run experiments` writes the page. Measured numbers are in `data/experiments`; data that may not be"
-            " passed on are read from a folder of yours (`--raw FOLDER`), and skipped with a sentence if they are not"
-            " there. `--check` compares all statistics with the stored ones."
+            "The [study](studies/experiments.md) has each campaign, its source and licence, and the methods."
         ),
         *markdown.paragraph(
             "The bias is the mean of ln(measured/computed), with its standard error in brackets. *Right* is the share"
             " of outcomes that are computed as measured, and means little without the yardsticks beside it."
         ),
     ]
+
+
+def study_opening() -> list[str]:
+    """What the study is."""
+    return markdown.paragraph(
+        "This study has the details of [Computed against measured](../experiments.md). `./run experiments` writes both"
+        " pages. Measured numbers are in `data/experiments`. Data that may not be redistributed are read from a folder"
+        " of yours (`--raw FOLDER`); without it they are skipped with a message. `--check` compares all statistics"
+        " with the stored ones."
+    )
 
 
 def reading(specimens: dict) -> list[str]:
@@ -52,10 +60,22 @@ def reading(specimens: dict) -> list[str]:
             "Whether a boulder falls under a known motion is computed better than by the guess that it never does. It"
             " is not computed better than by one threshold on PGV found on other tests of the same boulder: this is"
             f" right in {across} % of the tests, dondolo in {ours} %. A new wall has no such tests.",
-            "Loaded strips begin to move at far lower accelerations than computed.",
+            "Loaded strips begin to move at far lower accelerations than rigid blocks: they [bend](bending.md) before"
+            " they rock.",
             "No test of a one-sided facade, the most frequent wall of dondolo, is here.",
         ]
     )
+
+
+def boulders(specimens: dict) -> list[str]:
+    """The section of the boulders, of the page for users."""
+    return [
+        "## Two boulders on a shake table",
+        "",
+        "![measured and computed fragility curves of both boulders](figures/experiments_curves.png)",
+        "",
+        *markdown.paragraph(granite_sentence(specimens)),
+    ]
 
 
 def granite_sentence(specimens: dict) -> str:
@@ -89,10 +109,10 @@ def granite_sentence(specimens: dict) -> str:
     return (
         f"**What can be said, and no more:** on {two['test']['n']} measured shake-table motions, scaled from about 50"
         f" waveforms, dondolo computes rightly in {both('test', 'right')} of the tests whether each of two granite"
-        " boulders overturned"
-        f' (always "stands": {both("yardsticks", "always_stands")}; one threshold on PGV found on other tests:'
-        f" {both('yardsticks', 'one_pgv_threshold_of_nearly_static_tests')} if these are nearly static,"
-        f" {both('yardsticks', 'one_pgv_threshold_of_other_waveforms')} if they are of all other waveforms). The"
+        f' boulders overturned. The guess of always "stands" is right in {both("yardsticks", "always_stands")}, one'
+        " threshold on PGV found on other tests in"
+        f" {both('yardsticks', 'one_pgv_threshold_of_nearly_static_tests')} if these are nearly static and in"
+        f" {both('yardsticks', 'one_pgv_threshold_of_other_waveforms')} if they are of all other waveforms. The"
         f" effective slenderness of each boulder was found on {two['identified_on']['n']} other, nearly static tests."
         f" The computed median PGV is {shift(two).format(which='one')} and {shift(one).format(which='the other')}"
         + ("; both computed curves are wider than the measured ones" if wide else "")
@@ -107,16 +127,11 @@ def model_error() -> list[str]:
         "## The error of the model in a curve",
         "",
         *markdown.paragraph(
-            "A curve can be shown with an error of its model beside it: `fit.with_model_error(bias, beta)` has both"
-            " curves, the one that was fitted and one with θ exp(bias) and √(β² + beta²), draws both and writes both"
-            " pairs of numbers. There is no default. Checks and certificates take the curve that was fitted."
-        ),
-        *markdown.paragraph(
-            "The numbers to give are how much ln(measured median/computed median) varies between specimens of known"
-            " geometry: τ² is the variance of these biases less the mean of their squared standard errors, and for a"
-            " new wall beta is τ √(1 + 1/n), with Student's t of n - 1 degrees of freedom. A positive bias, which"
-            " would raise θ, should not be applied. At least five specimens of three campaigns are needed. **No"
-            " mechanism has them yet:**"
+            "[`with_model_error(bias, beta)`](model_uncertainty.md#the-error-of-the-model-itself) shows a curve with"
+            " an error of its model. The numbers to give describe how ln(measured median/computed median) varies"
+            " between specimens of known geometry. τ² is the variance of these biases less the mean of their squared"
+            " standard errors. For a new wall beta is τ √(1 + 1/n), with Student's t of n - 1 degrees of freedom. At"
+            " least five specimens of three campaigns are needed. **No mechanism has them yet:**"
         ),
     ]
 
@@ -167,7 +182,7 @@ def consequences(statistics: dict) -> list[str]:
         "### An object in a museum",
         "",
         *markdown.paragraph(
-            "A statue or a vase is a boulder: what its drawing says of its slenderness is not what overturns it. The"
+            "A statue or a vase behaves like a boulder: its effective slenderness is less than that of its drawing. The"
             " boulders above fell as if they had 50 and 70 % of the slenderness of their scans."
         ),
         "1. Measure the *effective* slenderness. Tilt the object, or pull it at the height of its centroid, until it"
@@ -177,7 +192,7 @@ def consequences(statistics: dict) -> list[str]:
         f" p²):\n   `dd.FreeStandingWall(2 R cos {ALPHA}, 2 R sin {ALPHA})`.",
         f"3. Put a range on {ALPHA} (`thickness`) and on the restitution with `dd.propagate_uncertainty`: with an"
         " identified"
-        f" {ALPHA} the two trade off.",
+        f" {ALPHA} the two are correlated.",
         "4. Use the motion of the floor or of the showcase, not that of the ground.",
         "5. If you test the object on a table, measure the motion of the table. A commanded motion is not a measured"
         " one.",

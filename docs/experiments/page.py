@@ -1,4 +1,4 @@
-"""The page "Computed against measured", from the facts of the campaigns and their statistics."""
+"""The pages "Computed against measured", short and in full, from the campaigns' facts and their statistics."""
 
 import importlib.util
 import math
@@ -17,8 +17,34 @@ _SPEC.loader.exec_module(markdown)
 DASH = "-"
 
 
-def text(known: dict, statistics: dict) -> str:
-    """The page as Markdown.
+def text(statistics: dict) -> str:
+    """The page for users, as Markdown: the summary, and what follows from it.
+
+    Parameters
+    ----------
+    statistics : dict
+        Statistics of each campaign that is used.
+
+    Returns
+    -------
+    str
+    """
+    specimens = statistics["granite"]["specimens"]
+    lines = [
+        "# Computed against measured",
+        "",
+        *chapters.opening(),
+        *markdown.table(*_summary(statistics)),
+        *chapters.reading(specimens),
+        *chapters.boulders(specimens),
+        *chapters.consequences(statistics),
+        *_model_error(statistics["granite"]),
+    ]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def study(known: dict, statistics: dict) -> str:
+    """The page with everything, as Markdown.
 
     Parameters
     ----------
@@ -32,19 +58,15 @@ def text(known: dict, statistics: dict) -> str:
     str
     """
     lines = [
-        "# Computed against measured",
+        "# Computed against measured, in full",
         "",
-        *chapters.opening(),
-        *markdown.table(*_summary(statistics)),
-        *chapters.reading(statistics["granite"]["specimens"]),
+        *chapters.study_opening(),
         "## The campaigns",
         "",
         *markdown.table(*_campaigns(known)),
         *_limestone(statistics["limestone"], statistics["elgawady"]),
         *_granite(statistics["granite"]),
         *_strips(statistics["sin01"], statistics["safego"]),
-        *_model_error(statistics["granite"]),
-        *chapters.consequences(statistics),
         *chapters.missing(campaigns.FOLDER / "wanted.csv"),
         *chapters.methods(),
     ]
@@ -134,7 +156,7 @@ def _limestone(stone: dict, other: dict) -> list[str]:
         "## Speed lost at impacts: limestone and concrete",
         "",
         "![measured over computed speed ratio of first impacts against slenderness, and of ten impacts in a row]"
-        "(figures/experiments_limestone.png)",
+        "(../figures/experiments_limestone.png)",
         "",
         *markdown.paragraph(
             f"Blocks of limestone lose nearly what Housner's formula gives: the mean ratio of {first['n']} first"
@@ -189,9 +211,10 @@ def _granite(found: dict) -> list[str]:
     return [
         "## Overturning on a shake table: granite boulders",
         "",
-        "![measured and computed fragility curves of both boulders](figures/experiments_curves.png)",
-        "",
-        *markdown.paragraph(chapters.granite_sentence(specimens)),
+        *markdown.paragraph(
+            "The [summary](../experiments.md#two-boulders-on-a-shake-table) has the figure, and what follows from"
+            " this table."
+        ),
         *markdown.paragraph(
             "The study is that of others and unpublished. This page has our own summary statistics; the table of"
             " tests, counts by intensity and motions are not in the project. The split was settled after a first look"
@@ -202,7 +225,7 @@ def _granite(found: dict) -> list[str]:
             "**One number of each specimen was identified.** A scan gives slendernesses of 9.0 and 9.8 degrees;"
             f" {one['alpha']:.3f} and {two['alpha']:.3f} rad ({math.degrees(one['alpha']):.1f} and"
             f" {math.degrees(two['alpha']):.1f} degrees) make as many nearly static tests (PGV/PGA of at least 0.09 s)"
-            f" fall as fell, and so do all from {one['alpha_from']:.3f} to {one['alpha_to']:.3f} and from"
+            f" fall as fell. So do all values from {one['alpha_from']:.3f} to {one['alpha_to']:.3f} and from"
             f" {two['alpha_from']:.3f} to {two['alpha_to']:.3f}, within two falls. It is an effective number for"
             " contact, direction and torsion. The other tests show how good the rest of the model is."
         ),
@@ -224,8 +247,8 @@ def _granite(found: dict) -> list[str]:
         *markdown.table(["processing", "specimen 1", "specimen 2"], [*effect, ["yardstick: always stands", *stands]]),
         *markdown.paragraph(
             "**Single motions.** The smallest factor on a motion at which the computed block falls, on a grid of 4 %,"
-            " is a minimum over outcomes that are not monotonic, and biased low, so that a model without error would"
-            " have a positive bias too: the yardstick shows it. A probit of the measured outcome on its inverse gives"
+            " is a minimum over outcomes that are not monotonic. It is biased low, so that a model without error would"
+            " have a positive bias too, as the yardstick shows. A probit of the measured outcome on its inverse gives"
             " the bias of the capacity and the scatter `beta_single` of one block under one record. Much of this"
             " scatter may be that of the method: the computed outcomes themselves, in place of the measured ones,"
             f" give {one['single_motion']['beta_of_computed_outcomes']:.2f} and"
@@ -296,7 +319,7 @@ def _strips(wall: dict, strips: dict) -> list[str]:
         "## Strips with a load on their tops",
         "",
         "![largest displacement of two strips against PGA, with the computed trigger acceleration]"
-        "(figures/experiments_strips.png)",
+        "(../figures/experiments_strips.png)",
         "",
         *markdown.paragraph(
             "**They begin to move far earlier than computed.** A rigid strip of `safego` does not move below"
@@ -343,12 +366,12 @@ def _bent(found: dict) -> list[str]:
     ]
     return [
         *markdown.paragraph(
-            "**With joints that bend before they open they do move.** The same strips with `elastic_period`"
-            " ([Does my wall bend first?](bending.md)), the measured periods before and after cracking, under both"
-            " components of the Friuli record at Tolmezzo scaled to the PGA of the tests. "
-            "Displacements of the hinge, at"
-            " 0.72 of the height, in mm; computed ones of the components NS and WE, ratios are geometric means over"
-            " heights, components and specimens. The last PGA is not among the facts: it is twice that of the first."
+            "**With joints that bend before they open they do move.** The same strips have `elastic_period` ([Does my"
+            " wall bend first?](../bending.md)), with the periods measured before and after cracking. The motions are"
+            " both components of the Friuli record at Tolmezzo, scaled to the PGA of the tests. The table has"
+            " displacements of the hinge, at 0.72 of the height, in mm; computed ones are of NS and WE. Ratios are"
+            " geometric means over heights, components and specimens. The last PGA is not among the facts: it is twice"
+            " that of the first."
         ),
         *markdown.table(head, rows),
         *markdown.paragraph(

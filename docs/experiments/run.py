@@ -1,8 +1,9 @@
 """Compare what dondolo computes with what was measured, for ./run experiments.
 
-Writes docs/experiments.md, its figures and data/experiments/statistics.json, and in out/experiments one line for each
-test (experiments.csv) and all statistics with versions and checksums (experiments.json). With --check only the last two
-are written, and the command fails if statistics or page differ from the stored ones. Nothing is downloaded.
+Writes docs/experiments.md, docs/studies/experiments.md, their figures and data/experiments/statistics.json, and in
+out/experiments one line for each test (experiments.csv) and all statistics with versions and checksums
+(experiments.json). With --check only the last two are written, and the command fails if statistics or pages differ from
+the stored ones. Nothing is downloaded.
 """
 
 import argparse
@@ -25,6 +26,7 @@ import dondolo as dd
 
 OUT = campaigns.ROOT / "out/experiments"
 PAGE = campaigns.ROOT / "docs/experiments.md"
+STUDY = campaigns.ROOT / "docs/studies/experiments.md"
 #: Largest difference of counts of granite: two right integrators differ in 3 to 15 of 490 flags
 COUNTS = 10
 HEADER = ["campaign", "test", "specimen", "quantity", "measured", "computed", "ln_ratio", "right"]
@@ -72,15 +74,16 @@ def main(arguments: list[str]) -> int:
         return 0
     statistics = {name: fresh.get(name, kept.get(name)) for name in campaigns.NAMES if name in fresh or name in kept}
     _write_out(statistics, lines, inputs)
-    text = page.text(known, statistics)
+    texts = {PAGE: page.text(statistics), STUDY: page.study(known, statistics)}
     if options.check:
-        return _check(fresh, kept, text)
+        return _check(fresh, kept, texts)
     _write(campaigns.STORED, json.dumps(statistics, indent=1, ensure_ascii=False) + "\n")
-    _write(PAGE, text)
+    for path, text in texts.items():
+        _write(path, text)
     import drawings
 
     drawings.draw(known, statistics, campaigns.ROOT / "docs/figures")
-    print(f"{PAGE.relative_to(campaigns.ROOT)} and its figures are written")
+    print(f"{' and '.join(str(path.relative_to(campaigns.ROOT)) for path in texts)} and figures are written")
     return 0
 
 
@@ -239,14 +242,15 @@ def _hold(folder: Path, kept: dict) -> None:
         )
 
 
-def _check(fresh: dict, kept: dict, text: str) -> int:
-    """Print what differs from the stored statistics and page."""
+def _check(fresh: dict, kept: dict, texts: dict[Path, str]) -> int:
+    """Print what differs from the stored statistics and pages."""
     wrong = []
     for name, found in fresh.items():
         wrong += campaigns.differences(found, kept.get(name), COUNTS if name == "granite" else 0, name)
-    if not PAGE.is_file() or PAGE.read_text(encoding="utf-8") != text:
-        wrong.append(f"{PAGE.relative_to(campaigns.ROOT)} is not what the statistics give: run ./run experiments")
-    passed = f"{', '.join(fresh) or 'nothing'}: as stored; the page is that of the statistics"
+    for path, text in texts.items():
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            wrong.append(f"{path.relative_to(campaigns.ROOT)} is not what the statistics give: run ./run experiments")
+    passed = f"{', '.join(fresh) or 'nothing'}: as stored; the pages are those of the statistics"
     print("\n".join(wrong) if wrong else passed)
     return 1 if wrong else 0
 

@@ -193,6 +193,12 @@ def heavy(mass, height=3.0, thickness=0.25):
     return dd.OneSidedWall(height, thickness, mass=mass, hinge_inertia=inertia, **where)
 
 
+def filled(shares, **more):
+    """A wall of two storeys of which parts are masonry."""
+    storeys = [dd.Section(height, 0.3, fill=share) for height, share in zip((2.0, 1.0), shares, strict=True)]
+    return dd.OneSidedWall(sections=storeys, **more)
+
+
 @pytest.mark.parametrize(
     ("make", "levels", "code"),
     [
@@ -207,6 +213,7 @@ def heavy(mass, height=3.0, thickness=0.25):
         (lambda: heavy(1.35), [0.2], "mass_beside_size"),  # tonnes
         (lambda: heavy(13.5), [0.2], "mass_beside_size"),  # kilonewtons
         (lambda: heavy(6e4), [0.2], "mass_beside_size"),  # more than of steel
+        (lambda: filled([0.6, 1.0]), [0.2], "restitution_of_solid"),
         (lambda: dd.OneSidedWall(3.0, 0.25), [1.0, 5.0], "levels_above_usual"),
     ],
 )
@@ -223,12 +230,21 @@ def test_slips_are_warned_of(make, levels, code, few):
         interlocked(0.44, sections=[dd.Section(2.0, 0.3), dd.Section(1.0, 0.45)]),
         heavy(1350.0),
         heavy(8 * 1350.0),  # of a facade, not of a metre of it
+        filled([0.8, 0.8]),  # a block that is lighter throughout
+        filled([0.6, 1.0], restitution="impulse"),
+        filled([0.6, 1.0], restitution_value=0.4),
     ],
 )
 def test_what_is_usual_is_not_warned_of(wall, few, recwarn):
     dd.multiple_stripe(wall, few, [0.2], progress=False)
     codes = [getattr(found.message, "code", "") for found in recwarn]
-    assert not {"overlap_above_thickness", "mass_beside_size", "value_above_usual", "value_below_usual"} & set(codes)
+    assert not {
+        "restitution_of_solid",
+        "overlap_above_thickness",
+        "mass_beside_size",
+        "value_above_usual",
+        "value_below_usual",
+    } & set(codes)
 
 
 # Names that formats and terminals could take for their own signs, and those that stand for steps of the cursor

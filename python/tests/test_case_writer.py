@@ -12,7 +12,10 @@ from dondolo.exchange.case_text import case_text
 pytestmark = pytest.mark.filterwarnings("ignore:&check")
 
 READY = ("facade", "facade_strip", "gable", "garden_wall", "history", "parapet", "parapet_on_building", "pinnacle")
-ALL = (*READY, "compound", "corner", "tied_facade", "two_block", "facade_hinges", "elastic_strip", "uncertain_strip")
+ALL = (
+    *(*READY, "compound", "corner", "elevation", "panel", "tied_facade", "two_block", "facade_hinges"),
+    *("elastic_strip", "uncertain_strip"),
+)
 
 
 @pytest.fixture(scope="module")

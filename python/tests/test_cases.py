@@ -22,6 +22,8 @@ CASES = {
     "pinnacle": ["walls", "histories", "stripes", "fragility"],
     "compound": ["walls", "histories", "stripes", "fragility"],
     "corner": ["walls", "histories", "stripes", "fragility"],
+    "elevation": ["walls", "histories", "stripes", "fragility"],
+    "panel": ["walls", "histories", "stripes", "fragility"],
     "facade": ["walls", "histories", "stripes", "fragility"],
     "parapet_on_building": ["walls", "histories", "stripes", "fragility"],
     "portal": ["walls", "histories", "stripes", "fragility"],

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import dondolo as dd
@@ -217,6 +218,21 @@ def test_what_a_file_states_otherwise_is_told(tmp_path):
         assert f"a.txt: {said}" in err
         assert "which counts, not what is given" in err
         assert dd.read_catalogue(target)[0].dt == 0.02
+
+
+def test_times_with_few_decimals_need_the_step(tmp_path):
+    """At 200 Hz, times of two decimals repeat: with the step they are read, and the catalogue has it."""
+    rows = [f"{0.005 * i + 1e-9:.2f} {np.sin(0.3 * i):.4f}" for i in range(600)]
+    (tmp_path / "motion.txt").write_text("\n".join(["time_s acc_g", *rows]) + "\n", encoding="utf-8")
+    code, _, err = run("catalogue", tmp_path)
+    assert code == 2
+    assert "are read with a dt_s, or dt, that fits them (option --dt)" in err
+    code, _, err = run("catalogue", tmp_path, "--dt", "0.005")
+    assert code == 0
+    assert "printed to 0.01 s, coarser than the step of 0.005 s, which fits all of them" in err
+    (record,) = dd.read_catalogue(tmp_path / "catalogue.csv")
+    assert record.dt == 0.005
+    assert len(record) == 600
 
 
 def test_vertical_channels(tmp_path):

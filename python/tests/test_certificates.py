@@ -188,8 +188,67 @@ def test_the_example_of_the_page_has_bounds(root, capsys):
     assert str(names["stripes"].theta_bounds) in capsys.readouterr().out
 
 
+def rounded_to(record, unit):
+    """The same record, its samples whole multiples of a unit [m/s2]."""
+    return dd.Record(np.round(record.acceleration / unit) * unit, record.dt, name=record.name)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_what_hangs_on_printed_digits(records):
+    """EDPs move with the size of the unit that samples are printed in, and outcomes that they turn are counted."""
+    strong = [record for record in records if record.peak_acceleration > 2.0][:8]
+    apart = []
+    for unit in (1e-5, 1e-3, 1e-2):
+        printed = [rounded_to(record, unit) for record in strong]
+        told = dd.multiple_stripe(
+            dd.OneSidedWall(3.0, 0.25), printed, np.linspace(0.5, 1.5, 9), certify=True, progress=False
+        )
+        assert np.isfinite(told.edp_rounded).all()
+        both = (told.edp < 1.0) & (told.edp_rounded < 1.0)
+        apart.append(np.median(np.abs(told.edp_rounded - told.edp)[both & (told.edp > 0.0)]))
+        assert (told.edp_rounded[told.edp_rounded > 1.0] == 1.0).all()
+        assert told.rounding_changes() == ((told.collapsed != (told.edp_rounded >= 1.0)).sum(), told.edp.size)
+        of_state = (told.edp >= 0.3) != (told.edp_rounded >= 0.3)
+        assert told.rounding_changes(0.3) == (of_state.sum(), told.edp.size)
+    # In proportion to the unit
+    assert 20.0 < apart[1] / apart[0] < 500.0
+    assert 2.0 < apart[2] / apart[1] < 50.0
+    turned = told.edp_rounded.copy()
+    turned[2, :3] = np.where(told.collapsed[2, :3], 0.9, 1.0)
+    turned[3, 0] = np.nan
+    expected = (told.collapsed != (turned >= 1.0)) & ~np.isnan(turned)
+    assert replace(told, edp_rounded=turned).rounding_changes() == (expected.sum(), told.edp.size - 1)
+    assert expected.sum() >= 3
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_records_without_printed_digits(wall, few):
+    """Samples that were computed have none, and their histories do not count; those of other records do."""
+    computed = dd.Record(0.3 * few[0].acceleration / 7.0, few[0].dt, name="computed")
+    told = dd.multiple_stripe(wall, [computed, *few[1:]], [0.3, 0.5], certify=True, progress=False)
+    assert np.isnan(told.edp_rounded[:, 0]).all()
+    assert np.isfinite(told.edp_rounded[:, 1:]).all()
+    assert told.rounding_changes()[1] == told.edp.size - 2
+    alone = dd.multiple_stripe(wall, computed, [0.3, 0.5], certify=True, progress=False)
+    assert alone.rounding_changes() == (0, 0)
+    assert "rounding of records" in repr(alone)
+    assert "not known" in repr(alone)
+    # What a record comes to does not depend on the records beside it.
+    some = dd.multiple_stripe(wall, few[1:], [0.3, 0.5], certify=True, progress=False)
+    assert np.array_equal(some.edp_rounded, told.edp_rounded[:, 1:])
+
+
+def test_the_report_says_what_the_rounding_changes(undecided, tmp_path):
+    changed, known = undecided.rounding_changes()
+    dd.report(undecided, tmp_path / "rounded.html")
+    text = (tmp_path / "rounded.html").read_text(encoding="utf-8")
+    assert f"{changed} of {known}" in text
+
+
 def test_refusals(wall, few):
     plain = dd.multiple_stripe(wall, few, [0.4], progress=False)
+    with pytest.raises(dd.errors.InputError, match="rounding_changes: only of certified stripes"):
+        plain.rounding_changes()
     with pytest.raises(dd.errors.InputError, match="have no estimated errors"):
         plain.certify(few)
     told = dd.multiple_stripe(wall, few, [0.4], estimate_error=True, progress=False)
@@ -235,9 +294,14 @@ def test_executable(tmp_path, records):
     assert "certified: " in printed
     theirs = dd.read_results(tmp_path / "result").stripes
     mine = dd.run_case(case, progress=False).stripes
-    for name in ("status", "edp", "edp_lowest", "edp_highest", "edp_error"):
+    for name in ("status", "edp", "edp_lowest", "edp_highest", "edp_rounded", "edp_error"):
         assert np.array_equal(getattr(mine, name), getattr(theirs, name)), name
-    (state,) = json.loads((tmp_path / "result_run.json").read_text(encoding="utf-8"))["certified"]["states"]
+    stored = json.loads((tmp_path / "result_run.json").read_text(encoding="utf-8"))["certified"]
+    assert (stored["changed"], stored["rounded"]) == mine.rounding_changes()
+    assert stored["rounded"] == mine.edp.size
+    assert f"records, {stored['changed']} of {stored['rounded']} outcomes change" in printed
+    (state,) = stored["states"]
+    assert state["changed"] == stored["changed"]
     assert (state["theta_lowest"], state["theta_highest"]) == mine.theta_bounds
     assert [state["fewest"], state["most"]] == [
         each.tolist() for each in mine.exceedance_bounds(state["edp_threshold"])
@@ -328,5 +392,5 @@ def test_an_interrupted_run_goes_on(wall, few, replace_procedure, monkeypatch):
     assert list(partial.to_frame()["status"]).count("") == number - 6
     again = partial.certify(few, progress=False)
     assert sum(calls[3:]) == number - 6
-    for name in ("status", "edp", "edp_lowest", "edp_highest", "edp_error"):
+    for name in ("status", "edp", "edp_lowest", "edp_highest", "edp_rounded", "edp_error"):
         assert np.array_equal(getattr(again, name), getattr(whole, name)), name

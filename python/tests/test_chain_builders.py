@@ -1,5 +1,6 @@
 """Builders of chains against published and computed values; the other side of a chain, its impact, and its files."""
 
+import itertools
 import math
 import subprocess
 import warnings
@@ -286,6 +287,41 @@ def test_roundings_of_zero_are_not_written(tmp_path):
     wall = dd.Chain(height=3.0, sides=1, restitution_value=0.9, bodies=[leaf], joints=[dd.Pin(1, 0, (-x, 0.0))])
     _bodies, joints = wall.write_tables(tmp_path / "leaf")
     assert joints.read_text().splitlines()[1].split(",")[3] == "0"
+
+
+def opening_fours(embrace, thickness, voussoirs):
+    """How many fours of hinges open, of any pattern and to both sides, by the equations of three links one by one."""
+    angles = np.radians(90.0 + embrace * (0.5 - np.arange(voussoirs + 1) / voussoirs))
+    edges = [radius * np.column_stack([np.cos(angles), np.sin(angles)]) for radius in
+             (10.0 - 0.5 * thickness, 10.0 + 0.5 * thickness)]  # fmt: skip
+    count = 0
+    for joints in itertools.combinations(range(voussoirs + 1), 4):
+        for sides in itertools.product((0, 1), repeat=4):
+            hinges = [edges[side][joint] for side, joint in zip(sides, joints, strict=True)]
+            ends = [edges[1 - side][joint] for side, joint in zip(sides, joints, strict=True)]
+            first, second, third = (hinges[k + 1] - hinges[k] for k in range(3))
+            links = np.column_stack([second, third])
+            if abs(np.linalg.det(links)) < 1e-12:
+                continue
+            turns = np.array([0.0, 1.0, *np.linalg.solve(links, -first), 0.0])
+            # A joint opens where what is behind it moves away from what is before it
+            steps = [
+                (turns[k + 1] - turns[k]) * (1.0 if sides[k] == 0 else -1.0) * np.sum((ends[k] - hinges[k]) ** 2)
+                for k in range(4)
+            ]
+            count += all(step > 0.0 for step in steps) + all(step < 0.0 for step in steps)
+    return count
+
+
+def test_a_thick_shallow_arch_has_no_hinges():
+    """None of its fours opens, of any pattern; those of a thinner one and of a less shallow one do."""
+    assert opening_fours(60.0, 1.5, 8) == 0
+    assert opening_fours(60.0, 0.6, 8) > 0
+    assert opening_fours(90.0, 1.5, 8) > 0
+    given = {"voussoirs": 8, "density": 2400.0, "sides": 2, "restitution_value": 0.7}
+    with pytest.raises(dd.errors.InputError, match=r"embrace = 60: .* no four hinges among its 9 joints that open"):
+        dd.arch(10.0, 1.5, 60.0, **given)
+    assert dd.arch(10.0, 0.6, 60.0, **given).trigger_acceleration > 2.0 * 9.81
 
 
 def portal(**more):

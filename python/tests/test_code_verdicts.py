@@ -1,5 +1,6 @@
 """What a check by NTC 2018 assumes and concludes: its confidence factor, required rows, verdict, and sliding hinges."""
 
+import re
 import subprocess
 
 import matplotlib
@@ -263,3 +264,41 @@ def test_every_document_says_that_a_hinge_slides(solve, tmp_path):
     assert "a hinge slides before it turns: base hinge" in pages["en"][0]
     assert "una cerniera scorre prima di ruotare." in pages["it"][1]
     assert "note-fine" not in pages["en"][1]
+
+
+TOGETHER = {
+    "independent": "house,one_sided,6.8,0.5,1900,0.05,independent\nhouse,two_block,3.2,0.3,1900,0.5,independent\n",
+    "exclusive": "house,one_sided,6.8,0.5,1900,0.4,exclusive\nhouse,two_block,3.2,0.3,1900,0.6,exclusive\n",
+}
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+@pytest.mark.parametrize("occurrence", TOGETHER)
+def test_the_probability_of_several_mechanisms_at_the_site(root, tmp_path, executable, occurrence):
+    """By the curve of the wall, but not less than that of a mechanism times its probability: in report and console."""
+    rows = "name,mechanism,height,thickness,density,p_occ,occurrence\n" + TOGETHER[occurrence]
+    (tmp_path / "walls.csv").write_text(rows)
+    case = tmp_path / "case.nml"
+    case.write_text(
+        f"&job task = 'typology' output = '{tmp_path}/result' /\n&population file = '{tmp_path}/walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n&stripes first = 0.1 last = 1.5 count = 8 /\n"
+        "&check ag = 0.104, 0.261, 0.334 f0 = 2.332, 2.364, 2.4 tc_star = 0.281, 0.347, 0.364 soil = 'B' /\n"
+    )
+    printed = subprocess.run([executable, case], check=True, capture_output=True, text=True).stdout
+    results = dd.read_results(tmp_path / "result")
+    people = results.typology
+    (pga,) = {check.pga for check in results.checks}
+    alone = [p * float(curve(pga)) for p, curve in zip(people.population.p_occ, people.curves, strict=True)]
+    expected = max(float(people.unions["house"](pga)), *alone)
+    ((found, more),) = re.findall(r"'house': probability of collapse at a_g S = \S+ g: ([\d.]+)(;.*)?\n", printed)
+    assert float(found) == pytest.approx(expected, rel=2e-3)
+    # Alternatives of one mechanism are their mixture: no other number stands beside it.
+    assert ("taken as independent" in more) == (occurrence == "independent")
+    dd.report(results, tmp_path / "report.html")
+    text = " ".join((tmp_path / "report.html").read_text(encoding="utf-8").split())
+    (shown,) = re.findall(r"Probability of collapse by any mechanism that occurs.*?same histories: ([\d.]+\d)", text)
+    assert float(shown) == pytest.approx(expected, abs=6e-4)
+    assert ("One of the mechanisms, or of their alternatives, occurs" in text) == (occurrence == "exclusive")
+    # Rows of one wall are told apart by their mechanisms.
+    for mechanism in ("one_sided", "two_block"):
+        assert re.search(rf"(?m)^house, {mechanism} ", printed)

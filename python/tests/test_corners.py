@@ -12,6 +12,7 @@ import pytest
 
 import dondolo as dd
 from dondolo.walls.shape import shape, wedges
+from dondolo.walls.wall import notes_on_supports
 
 matplotlib.use("Agg")
 
@@ -239,6 +240,23 @@ def test_case_and_tables(root, run, tmp_path):
     results = dd.read_results(tmp_path / "out")
     assert results.stripes.wall.capacity_angle == corner().capacity_angle
     assert results.check.value("mechanism", "", "alpha_0") == pytest.approx(0.3269288666929932, rel=1e-6)
+    # No column of its calculation is per metre
+    lines = (tmp_path / "out_calculation.csv").read_text().splitlines()
+    head, first = [line.split(",") for line in lines if not line.startswith("#")][:2]
+    assert head == [
+        *("item", "force_n", "depth_m", "arm_m", "lever_m"),
+        *("stabilising_nm", "overturning_nm", "force_lever_nm", "force_lever2_nm2"),
+    ]
+    assert float(first[1]) == pytest.approx(results.check.items[0].force, rel=1e-12)
+
+
+def test_all_modes_move_it_along_the_bisector():
+    """What is said of a building with modes of two directions, and not of one with a single mode."""
+    several = dd.Building([0.3, 0.2], participation=[1.2, 0.4])
+    said = [text for _, text in notes_on_supports((corner(building=several),))]
+    assert any("along the bisector of the corner; modes of its two directions" in text for text in said)
+    for wall in (corner(building=dd.Building(0.3, participation=1.2)), dd.OneSidedWall(3.0, 0.3, building=several)):
+        assert not any("bisector" in text for _, text in notes_on_supports((wall,)))
 
 
 def test_an_uncertain_angle(records, root, run, tmp_path):

@@ -209,7 +209,7 @@ def test_hinges_of_a_population(tmp_path):
     lists = {f"elevation{i + 1}_{c}": HOUSE[f"elevation_{c}"][i] for i in range(5) for c in "xz"}
     row = {"name": "a", "mechanism": "one_sided", "thickness": 0.5, "density": 1900.0, "facade_length": 6.0} | lists
     table = tmp_path / "people.csv"
-    row |= {"height": "", "hinge_depth": 0.02, "hinge1_level": 0.0, "hinge2_level": 2.0, "hinge3_level": 6.5}
+    row |= {"hinge_depth": 0.02, "hinge1_level": 0.0, "hinge2_level": 2.0, "hinge3_level": 6.5}
     table.write_text(",".join(row) + "\n" + ",".join(map(str, row.values())) + "\n")
     again = dd.Population.from_csv(table)
     assert [wall.height for wall in again] == pytest.approx([7.5, 5.5, 1.0])

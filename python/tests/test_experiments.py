@@ -420,7 +420,8 @@ def test_figures_in_both_widths(scripts, root, tmp_path):
     drawings = importlib.import_module("drawings")
     campaigns = scripts["campaigns"]
     known = {name: campaigns.read(name) for name in campaigns.NAMES}
-    page = (root / "docs/experiments.md").read_text(encoding="utf-8")
+    pages = [root / "docs/experiments.md", root / "docs/studies/experiments.md"]
+    page = "\n".join(path.read_text(encoding="utf-8") for path in pages)
     for width in (88.0, 180.0):
         with dd.style("journal", width=width):
             drawn = drawings.draw(known, campaigns.stored(), tmp_path / str(width), width / 25.4)

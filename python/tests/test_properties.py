@@ -13,9 +13,10 @@ import dondolo as dd
 from dondolo._fortran.library import properties
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS
 from dondolo.walls.chains import TABLES
-from dondolo.walls.mechanisms import CHECK_TERMS, MECHANISMS, TERMS
+from dondolo.walls.mechanisms import MECHANISMS
 from dondolo.walls.parts import KINDS, PLACES
 from dondolo.walls.table import numbered
+from dondolo.walls.tabulated import CHECK_TERMS, TERMS
 
 WALL = properties("wall")
 (GRAVITY,) = (row for row in properties("solver") if row.name == "gravity")
@@ -71,7 +72,8 @@ def test_walls(kind):
         assert description.startswith(sentence(row)), (description, sentence(row))
         kinds = (
             "sequence of float"
-            if row.name in ("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", *TABLES)
+            if row.name
+            in ("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", "axis_x", "axis_z", *TABLES)
             else "{"
             if row.choices
             else "str"

@@ -196,6 +196,15 @@ def test_histories(name, engine, chains):
     assert found.edp[0, 0] * chains[name].capacity_angle == pytest.approx(SHEETS[name][8], rel=1e-8)
 
 
+@pytest.mark.parametrize("name", ["horizontal", "arch", "portal", "cavity"])
+def test_a_chain_at_rest_has_no_displacement(name, chains):
+    """Not a rounding of the polynomial of d, of either sign."""
+    record = dd.Record(0.2 * np.sin(np.arange(300) * 0.1), 0.01)
+    check = dd.check_ntc(chains[name], dd.Site(0.02, 2.5, 0.3)).dynamic([record])
+    assert check.value("dynamic", "SLV", "mean_displacement") == 0.0
+    assert check.value("dynamic", "SLV", "beyond") == 0
+
+
 def test_a_strip_is_a_two_block_wall():
     """Every history of a strip, at a hinge of 20 mm and with half of its load lifted.
 

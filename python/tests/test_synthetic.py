@@ -50,6 +50,27 @@ def test_metadata():
     }
 
 
+def test_a_catalogue_keeps_what_was_computed(tmp_path):
+    """Records that are synthetic are so in a catalogue too, and in what is made of it; recorded ones are not."""
+    made = dd.synthetic_records(6.5, 10.0, "shallow", n_records=2)
+    other = dd.Record(made[0].acceleration, made[0].dt, name="of an array")
+    dd.RecordSet([*made, other]).to_catalogue(tmp_path / "records.csv")
+    again = dd.read_catalogue(tmp_path / "records.csv")
+    assert [record.metadata["format"] for record in again] == ["synthetic", "synthetic", "columns"]
+    assert {record.metadata["format"] for record in dd.example_records()} == {"synthetic"}
+    case = tmp_path / "case.nml"
+    case.write_text(
+        "&job task = 'stripes' output = 'result' /\n&wall mechanism = 'one_sided' height = 3.0 thickness = 0.25 /\n"
+        "&records catalogue = 'records.csv' /\n&stripes levels = 0.3, 0.5 /\n",
+        encoding="utf-8",
+    )
+    run = dd.run_case(case, progress=False)
+    assert run.stripes.record_formats == ("synthetic", "synthetic", "columns")
+    for lang, words in (("en", "2 of 3 records are synthetic"), ("it", "2 accelerogrammi su 3 sono sintetici")):
+        dd.report(run, tmp_path / f"{lang}.html", lang=lang)
+        assert words in (tmp_path / f"{lang}.html").read_text(encoding="utf-8")
+
+
 def test_energy(many):
     records, model = many
     energy = np.array([record.dt * record.acceleration @ record.acceleration for record in records])

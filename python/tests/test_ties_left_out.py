@@ -11,6 +11,7 @@ import pytest
 
 import dondolo as dd
 from dondolo._fortran.checks import dynamic_sheet
+from dondolo.checks.side_by_side import side_by_side, ties_not_counted
 from dondolo.errors import InputError
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.subjects import Subject
@@ -18,6 +19,7 @@ from dondolo.reporting.relazione.sums import ties_left_out
 from dondolo.reporting.relazione.terms import warning
 from dondolo.walls.wall import upload
 
+MASONRY = ("masonry_compression", "masonry_shear", "masonry_tension")
 SITE = dd.Site(ag=(0.104, 0.261, 0.334), f0=(2.332, 2.364, 2.4), tc_star=(0.281, 0.347, 0.364), soil="B")
 
 
@@ -242,3 +244,58 @@ def test_names_of_ties_left_out():
     assert ties_left_out(one, "ties 1, 3") == {"tie 1", "tie 3"}
     assert ties_left_out(one, "") == frozenset()
     assert ties_left_out(one, "ties (2)") == {"tie 13", "tie 14"}
+
+
+WEAK = """
+&job task = 'stripes' output = 'result' /
+&wall name = 'facade' mechanism = 'one_sided' section_height = 3.6, 3.2 section_thickness = 0.6, 0.45 density = 1900.0
+  hinge_depth = 0.03 load = 9.0e3, 5.0e3 load_height = 3.6, 6.8 load_depth = 0.5, 0.32 load_inertia = 'both'
+  thrust = 0.4e3 thrust_height = 6.8 tie_height = 6.5 tie_bar = 0.02 tie_spacing = 3.0 tie_length = 8.0
+  tie_strength = 1.8e8 tie_strain = 0.02 tie_plate_width = 0.4 tie_plate_height = 0.4 tie_plate_thickness = 0.02
+  masonry_compression = 2.0e6 masonry_shear = 3.5e4 masonry_tension = 5.2e4 /
+&building period = 0.22 storeys = 2 level = 0.0 building_height = 6.8 /
+&records catalogue = '{catalogue}' /
+&check ag = 0.104, 0.261, 0.334 f0 = 2.332, 2.364, 2.4 tc_star = 0.281, 0.347, 0.364 soil = 'B' /
+&stripes levels = 0.2, 0.4, 0.6 /
+"""
+
+
+@pytest.fixture
+def weak(root, tmp_path, monkeypatch):
+    """A case whose one tie gives way by its anchor, and is not counted."""
+    monkeypatch.chdir(tmp_path)
+    case = tmp_path / "case.nml"
+    case.write_text(WEAK.format(catalogue=root / "data/records/synthetic44.csv"), encoding="utf-8")
+    return case
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_the_calculation_report_of_a_plate_that_does_not_count(weak):
+    """Its capacity curve is drawn without the tie too, and so without the strengths behind its plate."""
+    run = dd.run_case(weak, progress=False)
+    assert ties_not_counted(run.check, "SLV") == "tie 1"
+    dd.calculation_report([run], "relazione.html")
+    assert (weak.parent / "relazione.html").stat().st_size > 10000
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_capacity_and_demand_are_of_the_curve_that_the_ratio_is_of(weak, executable):
+    """On the console as in reports: their quotient is the ratio, or a line says that it is of accelerations."""
+    check = dd.run_case(weak, progress=False).check
+    bare = dd.check_ntc(replace(check.wall, ties=[], **dict.fromkeys(MASONRY)), check.site)
+    printed = subprocess.run([executable, weak], capture_output=True, text=True, check=True).stdout
+    for line in side_by_side(check, None):
+        if line.method != "nonlinear":
+            continue
+        left_out = ties_not_counted(check, line.limit_state)
+        assert left_out == ("tie 1" if line.limit_state == "SLV" else "")
+        taken = bare if left_out else check
+        assert line.capacity == pytest.approx(taken.value("nonlinear", line.limit_state, "displacement"), rel=1e-12)
+        assert line.demand == pytest.approx(taken.value("nonlinear", line.limit_state, "demand"), rel=1e-12)
+        words = next(row for row in printed.splitlines() if row.startswith(f"nonlinear {line.limit_state} ")).split()
+        capacity, demand, ratio = float(words[2]), float(words[4]), float(words[6])
+        assert capacity == pytest.approx(line.capacity, rel=1e-3)
+        assert ratio == pytest.approx(line.ratio, rel=1e-3)
+        of_activation = f"nonlinear {line.limit_state}: the ratio is that of accelerations at activation" in printed
+        assert of_activation == (ratio > 1.002 * capacity / demand)
+        assert (f"nonlinear {line.limit_state}: without the ties" in printed) == bool(left_out)

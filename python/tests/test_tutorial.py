@@ -59,7 +59,7 @@ def test_both_languages_show_the_same(root):
 
 def test_readme(root, executable, tmp_path):
     page = (root / "README.md").read_text(encoding="utf-8")
-    assert len(page.splitlines()) <= 120
+    assert len(page.splitlines()) <= 110
     lines = [line.split("  #")[0].strip() for line in commands(page) if line.startswith("dondolo")]
     assert len(lines) == 3
     said = [said for line in lines for said in shell(line, tmp_path, executable)]

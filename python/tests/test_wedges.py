@@ -95,6 +95,14 @@ def test_supports():
     assert wall.support_tilt == pytest.approx(1.401701572591, rel=1e-12)
 
 
+def test_long_wedges_ask_for_a_restitution():
+    """Where the model of impacts would have the wall not bounce at all, as for corners."""
+    long = replace(WEDGE, angle=60.0, length=20.0)
+    with pytest.raises(dd.errors.InputError, match=r"restitution_value: must be given, .* must be more than 0"):
+        facade(wedges=[long, long])
+    assert facade(wedges=[long, long], restitution_value=0.3).restitution_coefficient == 0.3
+
+
 @pytest.mark.parametrize("loaded", [True, False])
 def test_an_angle_of_0_is_no_wedge(loaded):
     """To the bit, the impacts and their default model too."""

@@ -12,10 +12,12 @@ module histories
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_fall, warn_of_records
    use dondolo_case_result_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
    use dondolo_case_wall_warnings, only : wall_warnings_type
+   use dondolo_fragility_rounding, only : run_within_rounding => run_rounded
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_interface_felt_motions, only : check_scale, find_motions
    use dondolo_interface_handles, only : find_suite, find_walls
    use dondolo_motion_certificate, only : certificate_type, certify_histories
+   use dondolo_motion_certified, only : not_known
    use dondolo_motion_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
@@ -28,7 +30,7 @@ module histories
    implicit none
    private
 
-   public :: certify, check_settings, is_doubtful, simulate, run_scaled
+   public :: certify, check_settings, is_doubtful, simulate, run_rounded, run_scaled
    public :: warn_of_motion, warn_of_levels, warn_of_scales, warn_of_errors
 
    !> Memory that sending a row of a time history takes: six columns, twice [bytes]
@@ -144,6 +146,46 @@ contains
       end if
       call report(error, failure)
    end subroutine run_scaled
+
+   !> EDPs of k histories with every sample of their records moved within half a unit of its last printed digit; negative where it
+   !> is not known how the record is printed
+   subroutine run_rounded(walls, suite, record, scale, k, engine, threads, rtol, atol, edp_limit, edp, failure)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: walls, suite
+      character(len=*), intent(in) :: engine
+      integer(c_int), intent(in) :: k, threads, record(k)
+      real(c_double), intent(in) :: scale(k), rtol, atol, edp_limit
+      real(c_double), intent(out) :: edp(k)
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(suite_type), pointer :: records
+      type(solver_type) :: solver
+      type(ensemble_type) :: ensemble
+      real(c_double), allocatable :: found(:)
+      type(error_type), allocatable :: error
+      integer :: i
+
+      edp = not_known
+      solver = as_solver(engine, rtol, atol, edp_limit, 0_c_int, 0_c_int)
+      call check_room(error, histories=real(k, c_double))
+      if (.not. allocated(error)) call check_threads(threads, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_solver(solver, error)
+      if (.not. allocated(error)) call check_limit(solver, wall(1)%mechanism, error)
+      do i = 1, k
+         if (allocated(error)) exit
+         call check_scale(records, record(i), scale(i), error)
+      end do
+      if (.not. allocated(error)) then
+         ensemble%record = record
+         ensemble%scale = scale
+         call run_within_rounding(found, wall(1), records%records, ensemble, solver, threads, error)
+      end if
+      if (.not. allocated(error)) call check_interrupt(error)
+      if (.not. allocated(error)) edp = found
+      call report(error, failure)
+   end subroutine run_rounded
 
    !> Certify k histories of one wall: each has its record (numbered from 1), its factor and its EDP in double precision
    subroutine certify(walls, suite, record, scale, double_edp, k, edp_limit, threads, &

@@ -93,11 +93,12 @@ contains
    !> n histories of a wall: its name, its mechanism and r names of records as lines; of each history its record (from 1), flags
    !> of collapse and uplift, and how it is certified; has_*: 1 where there are errors, certificates and uplifts
    subroutine history_table(texts, im, record, polarity, level, scale, edp, time_of_peak, collapsed, impacts, edp_error, status, &
-         & edp_lowest, edp_highest, uplift, has_errors, has_certificates, has_uplifts, n, sent)
+         & edp_lowest, edp_highest, edp_rounded, uplift, has_errors, has_certificates, has_uplifts, n, sent)
       character(len=*), intent(in) :: texts, im
       integer(c_int), intent(in) :: n, has_errors, has_certificates, has_uplifts
       integer(c_int), intent(in) :: record(n), polarity(n), collapsed(n), impacts(n), status(n), uplift(n)
-      real(c_double), intent(in) :: level(n), scale(n), edp(n), time_of_peak(n), edp_error(n), edp_lowest(n), edp_highest(n)
+      real(c_double), intent(in) :: level(n), scale(n), edp(n), time_of_peak(n), edp_error(n), edp_lowest(n), edp_highest(n), &
+         & edp_rounded(n)
       integer(c_int64_t), intent(out) :: sent(5)
       type(response_type) :: response
       type(lines_type) :: words
@@ -116,7 +117,8 @@ contains
             call put_names(table, words%line(1)%text, words%line(2)%text)
             call put_history(table, words%line(2 + record(i))%text, polarity(i), im, level(i), scale(i), response)
             if (has_errors == 1) call table%put('edp_error', edp_error(i))
-            if (has_certificates == 1) call put_certified(table, certified_type(status(i), edp_lowest(i), edp_highest(i)))
+            if (has_certificates == 1) call put_certified(table, certified_type(status(i), edp_lowest(i), edp_highest(i), &
+               & edp_rounded(i)))
             if (has_uplifts == 1) call table%put('uplift', uplift(i) == 1)
             call table%end_row()
          end do

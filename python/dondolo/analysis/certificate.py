@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import argument_error, as_flag
+from dondolo._base.arguments import FloatArray, argument_error, as_flag
 from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
 from dondolo._fortran.histories import is_doubtful, warnings_of_errors
 from dondolo._fortran.library import Stoppable, check, warn
 from dondolo.analysis.request import check_threads, progress_bar
@@ -75,14 +76,15 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
     else:
         doubt = ran & (stripes.status == 0)
         status, lowest, highest = stripes.status.copy(), stripes.edp_lowest.copy(), stripes.edp_highest.copy()
-    numbers = (stripes.record_index[np.nonzero(doubt)[1]] + 1).astype(np.int32)
-    factors = (stripes.scale * stripes.polarity)[doubt]
+    rounded = np.full(ran.shape, np.nan) if stripes.edp_rounded is None else stripes.edp_rounded.copy()
+    numbers = np.broadcast_to(stripes.record_index + 1, ran.shape).astype(np.int32)
+    factors = stripes.scale * stripes.polarity
     # Kept until Fortran has returned
     wall, suite = upload_walls((stripes.wall,)), upload(tuple(records))
     places = np.argwhere(doubt)
 
     def so_far() -> Stripes:
-        found = fields | {"status": status, "edp_lowest": lowest, "edp_highest": highest}
+        found = fields | {"status": status, "edp_lowest": lowest, "edp_highest": highest, "edp_rounded": rounded}
         for value in found.values():
             value.flags.writeable = False
         return warned(dataclasses.replace(stripes, **found), stripes.warnings)
@@ -91,6 +93,8 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
     # A few at a time, so that Ctrl-C and the bar are heard
     with deferred() as interrupts, progress_bar(len(places), progress, "certificates", "history") as bar:
         try:
+            if np.isnan(rounded[ran]).all():
+                rounded[ran] = _within_rounding(stripes, (wall, suite), numbers[ran], factors[ran], threads)
             while done < len(places) and not interrupts.requested:
                 here = slice(done, done + _BLOCK)
                 rows = tuple(places[here].T)
@@ -98,8 +102,8 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
                     kind, *values, low, high, failure = _core.histories.certify(
                         wall.number,
                         suite.number,
-                        numbers[here],
-                        factors[here],
+                        numbers[rows],
+                        factors[rows],
                         stripes.edp[rows],
                         stripes.edp_limit,
                         threads,
@@ -124,6 +128,27 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
         if is_stopped:
             raise Interrupted(f"interrupted: {done} of {len(places)} histories in doubt are certified", so_far())
     return so_far()
+
+
+def _within_rounding(
+    stripes: Stripes, handles: tuple[Handle, Handle], numbers: Any, factors: FloatArray, threads: int
+) -> FloatArray:
+    """EDPs of histories of records, numbered from 1, moved within the rounding of their print; NaN: not known."""
+    wall, suite = handles
+    with Stoppable():
+        edp, failure = _core.histories.run_rounded(
+            wall.number,
+            suite.number,
+            numbers,
+            factors,
+            stripes.engine,
+            threads,
+            stripes.rtol,
+            stripes.atol,
+            stripes.edp_limit,
+        )
+    check(failure)
+    return np.where(edp < 0.0, np.nan, edp)
 
 
 def warned(stripes: Stripes, others: Iterable[DondoloWarning]) -> Stripes:

@@ -33,6 +33,7 @@ _COLUMNS = (
     "status",
     "edp_lowest",
     "edp_highest",
+    "edp_rounded",
     "uplift",
     "ran",
 )

@@ -13,7 +13,7 @@ from dondolo._base.shown import span
 from dondolo._fortran.records import levels_in_words
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo.analysis.work import Work
-from dondolo.errors import DondoloWarning
+from dondolo.errors import DondoloWarning, NotKnownError
 from dondolo.walls.ties import TieCounts, tallies_of_ties
 from dondolo.walls.wall import Wall, notes_on_supports, upload
 
@@ -45,6 +45,7 @@ class Outcomes:
     status: np.ndarray[Any, np.dtype[np.int32]] | None = None
     edp_lowest: FloatArray | None = None
     edp_highest: FloatArray | None = None
+    edp_rounded: FloatArray | None = None
     uplift: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
@@ -141,6 +142,44 @@ class Outcomes:
         counts: Counts = (self.edp >= threshold).sum(axis=1)
         return counts
 
+    def rounding_changes(self, edp_threshold: float | None = None) -> tuple[int, int]:
+        """Number of outcomes that hang on the rounding of the printed digits of the records.
+
+        Parameters
+        ----------
+        edp_threshold : float, optional
+            Rotation / capacity of a damage state, as for `exceedances`; collapse if left out.
+
+        Returns
+        -------
+        changed, known : int
+            Histories that reach the threshold under the record as it is or with its samples moved within half a unit of
+            their last printed digit, but not under both; and the histories of records whose printed digits are known.
+
+        Raises
+        ------
+        NotKnownError
+            Stripes that are not certified.
+        InputError
+            As `exceedances`.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.example_records()[:4]
+        >>> wall = dd.OneSidedWall(3.0, 0.25)
+        >>> stripes = dd.multiple_stripe(wall, records, [0.5, 0.7], certify=True, progress=False)
+        >>> stripes.rounding_changes()
+        (0, 8)
+        """
+        if self.edp_rounded is None:
+            raise NotKnownError("rounding_changes: only of certified stripes")
+        threshold = self.edp_limit if edp_threshold is None else as_number("edp_threshold", edp_threshold)
+        self.exceedances(threshold)
+        known = ~np.isnan(self.edp_rounded)
+        changed = known & ((self.edp >= threshold) != (self.edp_rounded >= threshold))
+        return int(changed.sum()), int(known.sum())
+
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
             ("wall", self.wall.name),
@@ -152,6 +191,9 @@ class Outcomes:
         if self.status is not None:
             sure, again, unknown = np.bincount(self.status[self.status > 0], minlength=4)[1:4]
             facts.append(("certified", f"{sure} in double, {again} in quadruple precision, {unknown} not computable"))
+        if self.edp_rounded is not None:
+            changed, known = self.rounding_changes()
+            facts.append(("rounding of records", f"changes {changed} of {known} outcomes" if known else "not known"))
         restitution = restitution_sentence(upload((self.wall,)))
         if restitution:
             facts.insert(1, ("restitution", restitution))

@@ -31,7 +31,7 @@ TableName = Literal["histories", "stripes", "walls"]
 # Columns that stripes have as matrices, or not at all
 _COLUMNS = (
     *("scale", "edp", "time_of_peak", "collapsed", "impacts"),
-    *("edp_error", "status", "edp_lowest", "edp_highest", "uplift"),
+    *("edp_error", "status", "edp_lowest", "edp_highest", "edp_rounded", "uplift"),
 )
 
 

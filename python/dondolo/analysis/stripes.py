@@ -72,6 +72,9 @@ class Stripes(Outcomes, Shown, Saved):
     edp_lowest, edp_highest : ndarray, shape (levels, histories), or None
         EDPs between which the last digit of the input decides, equal but for `Certified.NOT_COMPUTABLE`; None unless
         certified.
+    edp_rounded : ndarray, shape (levels, histories), or None
+        EDPs with every sample of the records moved within half a unit of its last printed digit; NaN where a record
+        does not run or has no printed digits; None unless certified.
     uplift : ndarray of bool, shape (levels, histories), or None
         Whether the ground accelerates downwards by g or more at some instant, as `Response.uplift`; None without
         vertical motion.
@@ -267,8 +270,8 @@ class Stripes(Outcomes, Shown, Saved):
         Returns
         -------
         Stripes
-            The same with `status`, `edp_lowest` and `edp_highest`. Histories that were run again have the EDP, the
-            flag, the impacts, the time of the peak and the error of that run.
+            The same with `status`, `edp_lowest`, `edp_highest` and `edp_rounded`. Histories that were run again in 33
+            digits have the EDP, the flag, the impacts, the time of the peak and the error of that run.
 
         Raises
         ------

@@ -39,7 +39,8 @@ class StateLine(NamedTuple):
     unit : str
         'm/s2' of a linear check, 'm' of a nonlinear one.
     capacity, demand : float
-        In this unit: q a_0* and that over the ratio, or d_C and d_D. NaN if the check is not applicable.
+        In this unit: q a_0* and that over the ratio, or d_C and d_D of the curve that the ratio is of. NaN if the check
+        is not applicable.
     ratio : float
         Capacity / demand, of the nonlinear checks not below that at activation; NaN if it is not applicable.
     site_pga, allowed_pga : float
@@ -87,7 +88,8 @@ def _line(check: CodeCheck, method: str, state: str, curve: Fragility | None) ->
         capacity = check.value("mechanism", "", "a_0") * (1.0 if behaviour is None else behaviour.value)
         demand = capacity / ratio
     else:
-        unit, capacity, demand = "m", check._outcome(key, "displacement"), check._outcome(key, "demand")
+        taken = ("untied", state) if ties_not_counted(check, state) else key
+        unit, capacity, demand = "m", check._outcome(taken, "displacement"), check._outcome(taken, "demand")
     if np.isnan(ratio):
         capacity = demand = np.nan
     return StateLine(
@@ -104,6 +106,12 @@ def _line(check: CodeCheck, method: str, state: str, curve: Fragility | None) ->
         chance_at(curve, allowed),
         chance_at(curve, site),
     )
+
+
+def ties_not_counted(check: CodeCheck, state: str) -> str:
+    """The ties that the ratio of a nonlinear check does not count, such as 'tie 1'; '' if it counts all."""
+    less, tied = (check._row("nonlinear", state, name) for name in ("less_zeta", "tied_zeta"))
+    return less.item if less is not None and tied is not None and less.value > tied.value else ""
 
 
 def chance_at(curve: Fragility | None, pga: float) -> Chance | None:

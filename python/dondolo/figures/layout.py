@@ -63,3 +63,29 @@ def _place(ax: Axes, left: float, right: float, bottom: float, top: float) -> No
     if left < right and bottom < top:
         ax.set_position((left, bottom, right - left, top - bottom))
         ax.set_in_layout(True)
+
+
+def apart(levels: list[float], gap: float) -> list[float]:
+    """Levels in rising order that are at least a gap apart, as near to given ones as that allows.
+
+    Parameters
+    ----------
+    levels : list of float
+        In rising order.
+    gap : float
+        Least distance of two.
+
+    Returns
+    -------
+    list of float
+    """
+    groups: list[list[float]] = []
+    for place, level in enumerate(levels):
+        # Where levels are too close their mean keeps its place
+        groups.append([level - place * gap, 1.0])
+        while len(groups) > 1 and groups[-2][0] > groups[-1][0]:
+            mean, count = groups.pop()
+            before, many = groups[-1]
+            groups[-1] = [(before * many + mean * count) / (many + count), many + count]
+    means = [mean for mean, count in groups for _ in range(round(count))]
+    return [mean + place * gap for place, mean in enumerate(means)]

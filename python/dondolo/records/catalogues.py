@@ -24,6 +24,7 @@ from dondolo.errors import DondoloError, InputError
 from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
 from dondolo.records.reading import read_records
 from dondolo.records.record import Record
+from dondolo.records.synthetic import SYNTHETIC
 
 if TYPE_CHECKING:
     from dondolo.records.record_set import RecordSet
@@ -36,8 +37,8 @@ _NAMED = re.compile(r"\d+_.*_([0-9a-f]{8})(?:_\d+)?\.txt")
 # Metadata that a file of columns states otherwise
 _STATED = ("format", "quantity", "units", "dt", "channel", "reading")
 
-#: Words of a refusal that columns, dt and units can mend
-_UNCLEAR = "a row of a catalogue must say"
+#: Words of a refusal that columns, dt and units can mend; of one that dt can; and of one that dt or units can
+_UNCLEAR, _COARSE, _MISSING = "a row of a catalogue must say", "are read with a dt_s, or dt", "must be given"
 
 #: Metadata that stand in a catalogue, for its readers.
 _KEYS = ("event", "date", "station", "component", "magnitude")
@@ -119,7 +120,8 @@ def build_catalogue(
             problems.append(f"{path}: a name that UTF-8 does not know")
             continue
         except InputError as error:
-            options = " (options --dt and --units)" if "must be given" in str(error) else ""
+            options = " (options --dt and --units)" if _MISSING in str(error) else ""
+            options = " (option --dt)" if _COARSE in str(error) and dt is None else options
             options = " (option --columns)" if _UNCLEAR in str(error) and not layout else options
             problems.append(f"{error}{options}")
             continue
@@ -238,6 +240,10 @@ def _table(
         "units": ["m/s2"] * len(records),
         "crc32": [files[record].crc32 for record in records],
     }
+    if any(record.metadata.get("format") == SYNTHETIC for record in records):
+        # Other formats are those of the files that the records were read from.
+        formats = (record.metadata.get("format", "") for record in records)
+        table["format"] = [SYNTHETIC if form == SYNTHETIC else "" for form in formats]
     if verticals:
         none = _RecordFile("", "")
         table["vertical"] = [verticals.get(record, none).place for record in records]
@@ -296,7 +302,7 @@ def _read(path: Path, dt: float | None, units: str | None, layout: str | None) -
             return records, _Given(step, unit or "", what or "")
         except InputError as error:
             reason = error
-            if "must be given" not in str(error) and _UNCLEAR not in str(error):
+            if not any(words in str(error) for words in (_UNCLEAR, _COARSE, _MISSING)):
                 break
     raise reason
 

@@ -10,6 +10,9 @@ from dondolo._fortran.library import as_text, receive
 from dondolo._fortran.records import unpack_records
 from dondolo.records.record import Record
 
+#: Format of records that were computed, not recorded
+SYNTHETIC = "synthetic"
+
 
 def synthetic_records(
     magnitude: float,
@@ -94,6 +97,6 @@ def _realisation(*arguments: Any) -> Record:
         "seed": str(seed),
         "realisation": str(realisation),
         "deviations": f"{deviations:.15g}",
-        "format": "synthetic",
+        "format": SYNTHETIC,
     }
     return Record(data.acceleration, data.dt, data.name, metadata=metadata)

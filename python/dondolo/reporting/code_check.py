@@ -16,6 +16,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning
 from dondolo.reporting import headings
 from dondolo.reporting.content import Piece, Symbol, Table, figure, pieces
+from dondolo.reporting.inputs import mechanism_of
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, chance, number, probability, whole
 from dondolo.reporting.relazione.terms import BENDING, MEANINGS, warning
@@ -92,14 +93,19 @@ _KINEMATIC = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonl
 
 
 def code_checks(
-    checks: Sequence[CodeCheck | None], curves: Sequence[Fragility], *, facade: Fragility | None, with_sheets: bool
+    checks: Sequence[CodeCheck | None],
+    curves: Sequence[Fragility],
+    p_occ: Sequence[float],
+    *,
+    facade: Fragility | None,
+    with_sheets: bool,
 ) -> dict[str, Any]:
     """What the kinematic checks say of each wall of a population, and its probability of collapse at the site.
 
     Parameters
     ----------
-    checks, curves
-        Of each row.
+    checks, curves, p_occ
+        Of each row: its check, its curve if its mechanism can occur, and the probability of that.
     facade : Fragility or None
         Curve of the one facade that the rows are mechanisms of.
     with_sheets : bool
@@ -107,7 +113,8 @@ def code_checks(
     """
     given = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
     made = [(check, curve) for check, curve in given if check.verified is not None]
-    columns: dict[Piece, Sequence[Piece]] = {say("wall"): [check.wall.name for check, _ in made]}
+    walls = [check.wall for check, _ in given]
+    columns: dict[Piece, Sequence[Piece]] = {say("wall"): [_name_among(check.wall, walls) for check, _ in made]}
     for key in _KINEMATIC:
         columns[f"{_name(*key)} [g]"] = [number(check._outcome(key, "capacity_pga"), 3) for check, _ in made]
         columns[say("{check}, ratio", check=_name(*key))] = [
@@ -126,7 +133,8 @@ def code_checks(
     if made and facade is not None and facade.has_fit and facade.im == "pga":
         # Far below the levels a curve that is fitted on its own may be less than that of a mechanism, which bounds it.
         pga = made[0][0].pga
-        together = probability(max(float(facade(pga)), *(float(one(pga)) for one in curves if one.has_fit)))
+        alone = [share * float(one(pga)) for share, one in zip(p_occ, curves, strict=True) if one.has_fit]
+        together = probability(max(float(facade(pga)), *alone))
     return {
         "checks": Table.of(columns),
         "held": held,
@@ -140,7 +148,7 @@ def code_checks(
         "raised": sum(check._has("mechanism", "", "knowledge_given") for check, _ in made),
         "left_out": len(checks) - len(made),
         "together": together,
-        "sheets": [(check.wall.name, _sheet(check)) for check, _ in given] if with_sheets else [],
+        "sheets": [(_name_among(check.wall, walls), _sheet(check)) for check, _ in given] if with_sheets else [],
     }
 
 
@@ -207,11 +215,13 @@ def verdict(
     if not made:
         return Verdict("doubt", say("Not checked by a building code"), tuple(doubts)) if doubts else None
     for item, names in (
-        (f"{check.wall.name}, {_item(item)}", names) for check in made for item, names in check.open_ties.items()
+        (f"{_name_among(check.wall, walls)}, {_item(item)}", names)
+        for check in made
+        for item, names in check.open_ties.items()
     ):
         doubts += [f"{say(_OPEN_TIES[name])}: {item}" for name in names if name in _OPEN_TIES]
     for check in made:
-        whose = f"{check.wall.name}, " if len(made) > 1 else ""
+        whose = f"{_name_among(check.wall, walls)}, " if len(made) > 1 else ""
         doubts += [say("a hinge slides before it turns: {hinge}", hinge=whose + _item(item)) for item in check.sliding]
     verdicts = [check._verified[key] for check in made for key in check.required]
     if missed:
@@ -237,7 +247,7 @@ def verdict(
     else:
         words = say("satisfied by NTC 2018: all that the verdict rests on ({which})", which=_required(made[0]))
     index = min(made, key=lambda check: check.zeta_e)
-    whose = f" ({index.wall.name})" if len(made) > 1 else ""
+    whose = f" ({_name_among(index.wall, walls)})" if len(made) > 1 else ""
     words = f"{words[0].upper()}{words[1:]}; ζ_E {decimal(f'{index.zeta_e:.3g}')}{whose}"
     return Verdict("failed" if missed else "doubt" if doubts else "fine", words, (*missed, *doubts))
 
@@ -263,10 +273,16 @@ def _worded(check: CodeCheck, key: tuple[str, str]) -> str:
 def _named(some: Sequence[Wall], walls: Sequence[Wall]) -> str:
     """Walls by their names, or how many they are."""
     return (
-        ", ".join(wall.name for wall in some)
+        ", ".join(_name_among(wall, walls) for wall in some)
         if len(some) <= _NAMED
         else say("{some} of {walls} walls", some=len(some), walls=len(walls))
     )
+
+
+def _name_among(wall: Wall, walls: Sequence[Wall]) -> str:
+    """The name of a wall, with its mechanism where other rows have the same name."""
+    is_alone = sum(other.name == wall.name for other in walls) == 1
+    return wall.name if is_alone else f"{wall.name}, {mechanism_of(wall)}"
 
 
 def _failed(made: Sequence[CodeCheck]) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from dondolo._base.wording import say
+from dondolo._fortran.walls import EXCLUSIVE
 from dondolo.populations.typology import Typology
 from dondolo.reporting import wall
 from dondolo.reporting.columns import of_curve, parameters_of, shown
@@ -22,6 +23,8 @@ def summary(people: Typology) -> dict[str, Any]:
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.has_fit:
         whose = say("of collapse by any of its mechanisms, counted in the same histories")
+        if _is_exclusive(people):
+            whose = say("of collapse, each history with the probability of the mechanisms that collapse in it")
         if curve.upper_asymptote < 1.0:
             whose += say(", if one can occur ({share:.3g} %)", share=100.0 * curve.upper_asymptote)
         cards.append((pieces("median {theta}", theta=THETA), level(curve.theta, people.im), whose))
@@ -35,12 +38,25 @@ def summary(people: Typology) -> dict[str, Any]:
     return {"cards": cards, "shares": []}
 
 
+def _is_exclusive(people: Typology) -> bool:
+    """Whether one of the mechanisms of the facade occurs, each with its probability."""
+    occurrence = people.population.occurrence
+    return any(
+        whole == people.facade and kind == EXCLUSIVE
+        for whole, kind in zip(people.population.wholes, occurrence, strict=True)
+    )
+
+
 def curves(people: Typology) -> dict[str, Any]:
     """Figures of the curves, and of the damage states with those that cross."""
     name = people.facade
     alt = say("Curves of the mechanisms of {name}, and of any of them in the same histories.", name=name) + " "
+    if _is_exclusive(people):
+        alt = say("Curves of the mechanisms of {name}, and of all with their probabilities.", name=name) + " "
     found: dict[str, Any] = {
         "name": name,
+        "is_exclusive": _is_exclusive(people),
+        "has_product": not people.population._has_single_alternatives(name),
         "union": figure(people.plot_union, alt + f"{name}: {in_words(people.unions[name])}."),
         "states": None,
         "crossings": None,
@@ -65,6 +81,7 @@ def numbers(people: Typology) -> dict[str, Any]:
     states = {state_name(float(edp), limit): people.at(float(edp)) for edp in people.edp_thresholds[::-1]}
     product = people.combined[name]
     return {
+        "is_exclusive": _is_exclusive(people),
         "curves": [(state, _curves_table(one)) for state, one in states.items()],
         "levels": [(state, _levels_table(one)) for state, one in states.items()],
         "product": (THETA, " = ", level(product.theta, people.im), ", ", BETA, " = ", number(product.beta, 3))
@@ -79,7 +96,10 @@ def _curves_table(people: Typology) -> Table:
     curves = [union, *people.curves]
     columns = {
         "curve": [people.facade, *(row.name for row in people.walls)],
-        "mechanism": [say("any of them"), *(row.mechanism for row in people.walls)],
+        "mechanism": [
+            say("all of them") if _is_exclusive(people) else say("any of them"),
+            *(row.mechanism for row in people.walls),
+        ],
         **parameters_of(curves, "theta", "se_ln_theta", "beta", "se_beta"),
         "upper_asymptote": [union.upper_asymptote, *people.population.p_occ],
         "status": [curve.status for curve in curves],

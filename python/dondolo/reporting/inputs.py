@@ -18,6 +18,7 @@ from dondolo.exchange.case_text import case_text
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
+from dondolo.records.synthetic import SYNTHETIC
 from dondolo.reporting import headings
 from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
@@ -38,10 +39,11 @@ from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.reporting.units import UNITS, Unit
 from dondolo.walls.chains import TABLES, Chain
-from dondolo.walls.mechanisms import TERMS, TabulatedWall
+from dondolo.walls.mechanisms import OneSidedWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
+from dondolo.walls.tabulated import TERMS, TabulatedWall
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
 # What sentences that are said elsewhere are marked by for the catalogues
@@ -99,6 +101,16 @@ def _levels(run: Run) -> Facts:
     ]
 
 
+def _elevations(walls: Sequence[Wall]) -> list[tuple[str, Any]]:
+    """Drawings of the elevations of walls that have one."""
+    alt = _("Elevation of {wall} with its openings and the line that it turns about, drawn to scale.")
+    return [
+        (wall.name, figure(wall.plot_elevation, say(alt, wall=wall.name)))
+        for wall in walls
+        if isinstance(wall, OneSidedWall) and wall.elevation_x is not None
+    ]
+
+
 def walls(run: Run) -> dict[str, Any]:
     """The walls with their statics, and their curves."""
     people = run.population
@@ -109,7 +121,10 @@ def walls(run: Run) -> dict[str, Any]:
                 "The wall at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
             )
             drawing = figure(people.walls[0].plot, alt)
-        return {"facts": _wall_facts(run), "tables": [], "drawing": drawing, "drawings": []}
+        elevations = _elevations(people.walls)
+        return {
+            "facts": _wall_facts(run), "tables": [], "drawing": drawing, "drawings": [], "elevations": elevations
+        }  # fmt: skip
     further = _further_properties(people.walls)
     facts, drawings = people._facts(), []
     if run.is_alike and len(people) <= DRAWN:
@@ -141,6 +156,7 @@ def walls(run: Run) -> dict[str, Any]:
         "tables": tables,
         "drawing": None,
         "drawings": drawings,
+        "elevations": _elevations(people.walls) if drawings else [],
     }
 
 
@@ -310,6 +326,10 @@ def records(run: Run) -> dict[str, Any]:
             (say("record"), results.record.name),
             (say("factor"), number(results.scale)),
         ]
+    formats = _formats(run)
+    if SYNTHETIC in formats:
+        counts = {"some": list(formats).count(SYNTHETIC), "all": len(formats)}
+        pairs.append((say("origin"), say("{some} of {all} records are synthetic: computed, not recorded", **counts)))
     found: dict[str, Any] = {"facts": pairs, "histories": None, "records": None}
     found["is_motion"] = isinstance(results, Response)
     if isinstance(results, Stripes):
@@ -322,6 +342,15 @@ def records(run: Run) -> dict[str, Any]:
         named = zip(results.record_names, results.events, strict=False)
         found["records"] = _stored_records_table([{"name": name, "event": event} for name, event in named])
     return found
+
+
+def _formats(run: Run) -> Sequence[str]:
+    """Formats that the records were read in."""
+    if run.records:
+        return [record.metadata.get("format", "") for record in run.records]
+    if run.file is not None and run.file.records:
+        return [one.get("format", "") for one in run.file.records]
+    return run.results.record_formats if isinstance(run.results, Stripes) else ()
 
 
 def _stored_records_table(stored: Sequence[Mapping[str, str]]) -> Table:

@@ -109,6 +109,12 @@ MEANINGS = {
     "opening_z": "quota sopra la base a cui comincia ciascuna",
     "opening_width": "larghezza di ciascuna",
     "opening_height": "altezza di ciascuna",
+    "axis_x": "posizioni lungo la facciata di due punti della retta attorno a cui ruota ciò che le sta sopra",
+    "axis_z": "quote di questi due punti sopra la base",
+    "half_gable": "il pannello è una delle due metà di un timpano che il colmo spinge fuori?",
+    "load_x": "posizione di ogni carico lungo la facciata, con axis_x",
+    "inertia_x": "posizione di ciascuna lungo la facciata, con axis_x",
+    "thrust_x": "posizione di ogni spinta lungo la facciata, con axis_x",
     "wing_angle": "angolo rispetto alla verticale delle lesioni nei due muri di un cantonale; 0: nessuna ala",
     "wing_length": "lunghezza massima di ogni ala dietro la faccia interna dell'altro muro, fino alla prima apertura;"
     " nessuna se non assegnata",
@@ -229,6 +235,8 @@ SUPPORTS = {
     " sommità si muove diversamente",
     "ties_to_building": "le catene {walls} sono ancorate all'edificio, e si muovono con esso",
     "ties_to_base": "le catene {walls} sono ancorate a ciò su cui poggia la base",
+    "corner_one_direction": "tutti i modi dell'edificio {walls} agiscono lungo la bisettrice del cantonale; modi delle"
+    " due direzioni ne muoverebbero ciascuno una componente",
 }
 
 

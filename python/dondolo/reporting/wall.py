@@ -23,6 +23,7 @@ from dondolo.reporting.columns import chosen, of_curve, parameters_of, shown
 from dondolo.reporting.content import (
     BETA,
     THETA,
+    Facts,
     Piece,
     Table,
     figure,
@@ -161,7 +162,13 @@ def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) 
         "theta_lowest": [low for low, _ in bounds],
         "theta_greatest": [high for _, high in bounds],
     }
-    counts = [(say(_CERTIFIED[kind]), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
+    counts: Facts = [
+        (say(_CERTIFIED[kind]), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified
+    ]
+    if stripes.edp_rounded is not None:
+        changed, known = stripes.rounding_changes()
+        among = pieces("{changed} of {known}", changed=whole(changed), known=whole(known)) if known else say("unknown")
+        counts.append((say("outcomes that the rounding of the records changes"), among))
     return {"counts": counts, "levels": Table.of(columns), "medians": shown(medians, stripes.im)}
 
 

@@ -33,6 +33,7 @@ from dondolo.exchange.case_text import Settings, case_text
 from dondolo.exchange.cases import Case
 from dondolo.records.codes import CHECK_OPTIONS
 from dondolo.records.suite import intensities
+from dondolo.records.synthetic import SYNTHETIC
 from dondolo.reporting.language import LANGUAGES, Language
 from dondolo.reporting.properties_it import MEANINGS
 from dondolo.reporting.relazione.terms import BENDING
@@ -100,14 +101,7 @@ class Bench:
             raise InputError(f"{catalogue}: has levels for its records, which the page cannot show")
         self.catalogue, self.threads = catalogue, threads
         self.records: tuple[dd.Record, ...] = tuple(records)
-        self.are_synthetic = (
-            any(
-                "synthetic" in (record.metadata.get("format", ""), Path(record.metadata.get("file", "")).parts[:1])
-                or record.metadata.get("file", "").startswith("synthetic")
-                for record in self.records
-            )
-            or "synthetic" in catalogue.stem
-        )
+        self.are_synthetic = any(record.metadata.get("format") == SYNTHETIC for record in self.records)
         self._plain = _motions(self.records)
         # Those with vertical components, by the factor on these
         self._vertical: OrderedDict[float, Motions] = OrderedDict()

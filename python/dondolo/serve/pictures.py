@@ -11,6 +11,7 @@ from dondolo.analysis.response import Response
 from dondolo.errors import InputError
 from dondolo.walls.drawing import support_height
 from dondolo.walls.drawing_loads import inner_face
+from dondolo.walls.elevation import height_of
 from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import Points, shape, width_of
 from dondolo.walls.wall import MasonryWall, Wall
@@ -35,14 +36,18 @@ def picture(wall: Wall) -> dict[str, Any] | None:
         return [
             [
                 t - (part.depth if part.depth is not None else 0.0),
-                part.height,
+                height_of(wall, part) if of == "loads" else part.height,
                 *(getattr(part, name) or 0.0 for name in names),
             ]
             for part in parts_of(wall, of)
         ]
 
     thrusts = [
-        [t - (inner_face(wall, part.height) if part.depth is None else part.depth), part.height, getattr(part, force)]
+        [
+            t - (inner_face(wall, height_of(wall, part)) if part.depth is None else part.depth),
+            height_of(wall, part),
+            getattr(part, force),
+        ]
         for part in parts_of(wall, "thrusts")
     ]
     return {

@@ -15,7 +15,8 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error, as_count, as_number, wrong_type
 from dondolo._fortran.library import constants
-from dondolo.walls.chains import Body, Chain, Guide, Part, Pin, PointLoad, PointThrust, Sector
+from dondolo.walls.chain_parts import Body, Guide, Part, Pin, PointLoad, PointThrust, Sector
+from dondolo.walls.chains import Chain
 from dondolo.walls.wall import DEFAULT
 
 # Places of the hinge that are compared in each interval, and halvings of the best of them
@@ -243,7 +244,8 @@ def arch(
     Raises
     ------
     InputError
-        An arch that falls by itself, directions that differ by more than 2 % with `sides=2`, sizes that no arch has.
+        An arch that falls by itself, or that no four hinges let sway; directions that differ by more than 2 % with
+        `sides=2`, sizes that no arch has.
 
     Notes
     -----
@@ -284,6 +286,10 @@ def arch(
             raise argument_error("out_of_range", "loads", f": stone {load.body} must be one of 1 to {joints - 1}")
     found = _weakest_hinges(stones, loads, hinge_depth)
     multipliers = [one.multiplier for one in found]
+    if not min(multipliers) < math.inf:
+        raise argument_error(
+            "out_of_range", "embrace", f" = {embrace:g}: an arch so shallow and {thickness:g} m thick has no four"
+            f" hinges among its {joints} joints that open together: it slides or is crushed first")  # fmt: skip
     if min(multipliers) <= 0.0:
         raise argument_error(
             "not_at_rest", "thickness", f" = {thickness:g}: the arch falls by itself, its multiplier is"

@@ -10,12 +10,11 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._storage.tables import Table, csv_lines, shortest, write_lines
+from dondolo.walls.chain_parts import MASS, SECTOR
 
 if TYPE_CHECKING:
     from dondolo.walls.chains import Chain
 
-# Kinds of rows of bodies
-_CORNER, _MASS, _SECTOR = 0, 1, 2
 # Depths and heights below this are roundings of zero / height
 _ZERO = 1e-12
 # Which parts of a load are lifted and pushed, by its word
@@ -59,16 +58,16 @@ def _bodies(rows: FloatArray) -> Table:
     return {
         "body": _numbers(rows[:, 0]),
         "part": _numbers(rows[:, 1]),
-        "width [m]": [None if row[2] == _MASS else float(row[3]) for row in rows],
-        "density [kg/m3]": [None if row[2] == _MASS else float(row[4]) for row in rows],
+        "width [m]": [None if row[2] == MASS else float(row[3]) for row in rows],
+        "density [kg/m3]": [None if row[2] == MASS else float(row[4]) for row in rows],
         "depth [m]": rows[:, 5] + 0.0,
         "height [m]": rows[:, 6] + 0.0,
-        "mass [kg]": of(_MASS, 7),
-        "inertia [kg m2]": of(_MASS, 8),
-        "inner [m]": of(_SECTOR, 7),
-        "outer [m]": of(_SECTOR, 8),
-        "from [deg]": of(_SECTOR, 9),
-        "to [deg]": of(_SECTOR, 10),
+        "mass [kg]": of(MASS, 7),
+        "inertia [kg m2]": of(MASS, 8),
+        "inner [m]": of(SECTOR, 7),
+        "outer [m]": of(SECTOR, 8),
+        "from [deg]": of(SECTOR, 9),
+        "to [deg]": of(SECTOR, 10),
     }
 
 

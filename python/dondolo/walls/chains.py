@@ -4,339 +4,36 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import KW_ONLY, InitVar, dataclass
+from dataclasses import InitVar, dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, argument_error, as_number, as_path, one_of, wrong_type
+from dondolo._base.arguments import FloatArray, argument_error, as_path, wrong_type
 from dondolo._fortran.walls import chain_facts, chain_motion
 from dondolo._storage.saved import part_of_results
+from dondolo.walls.chain_parts import (
+    CORNER,
+    SECTOR,
+    Body,
+    Guide,
+    Pin,
+    Point,
+    PointLoad,
+    PointMass,
+    PointThrust,
+    flat_bodies,
+)
 from dondolo.walls.chain_tables import write_tables
 from dondolo.walls.wall import DEFAULT, Wall, upload
 
 # Numbers of a row of each table
 TABLES = {"body_table": 11, "joint_table": 8, "action_table": 10}
 
-# Kinds of rows of bodies
-_CORNER, _MASS, _SECTOR = 0, 1, 2
-
-# Which parts of a load a chain lifts and pushes
-_INERTIAS = {"none": (0.0, 0.0), "vertical": (1.0, 0.0), "both": (1.0, 1.0)}
-
 # Sides of the outline of a sector on each of its arcs
 _SIDES = 24
-
-#: A point (x, y) [m]: x outwards, so that depths behind the outer face are negative, y upwards
-Point = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Part:
-    """A polygon of masonry in the plane of the motion, or an opening.
-
-    Parameters
-    ----------
-    corners : sequence of tuple
-        Corners (x, y), x outwards and y upwards [m].
-    width : float
-        Width across the plane, negative for an opening [m].
-    density : float
-        Density [kg/m3].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> pier = dd.Part([(0.0, 0.0), (-1.0, 0.0), (-1.0, 3.5), (0.0, 3.5)], width=1.0, density=1900.0)
-    >>> len(pier.corners)
-    4
-    """
-
-    corners: Sequence[Point]
-    width: float
-    density: float
-
-    def _rows(self) -> list[list[float]]:
-        """The numbers of its rows behind body and part."""
-        own = (as_number("width", self.width), as_number("density", self.density))
-        return [[_CORNER, *own, -x, y, 0.0, 0.0, 0.0, 0.0] for x, y in (_point("corners", at) for at in self.corners)]
-
-
-@dataclass(frozen=True)
-class Sector:
-    """A part of a ring of masonry between two radii and two angles, such as a voussoir.
-
-    Parameters
-    ----------
-    centre : tuple
-        Centre of the ring (x, y) [m].
-    inner, outer : float
-        Radii [m].
-    start, end : float
-        Angles between which it lies, from +x towards +y [deg].
-    width : float
-        Width across the plane, negative for an opening [m].
-    density : float
-        Density [kg/m3].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> stone = dd.Sector((0.0, 3.5), 1.5, 2.0, start=90.0, end=112.5, width=1.0, density=1900.0)
-    >>> stone.outer - stone.inner
-    0.5
-    """
-
-    centre: Point
-    inner: float
-    outer: float
-    _: KW_ONLY
-    start: float
-    end: float
-    width: float
-    density: float
-
-    def _rows(self) -> list[list[float]]:
-        """The numbers of its row behind body and part."""
-        x, y = _point("centre", self.centre)
-        numbers = [as_number(name, getattr(self, name)) for name in ("inner", "outer", "start", "end")]
-        return [[_SECTOR, as_number("width", self.width), as_number("density", self.density), -x, y, *numbers]]
-
-
-@dataclass(frozen=True)
-class GivenMass:
-    """A mass that is given with its centroid and its inertia.
-
-    Parameters
-    ----------
-    mass : float
-        Mass [kg].
-    at : tuple
-        Centroid (x, y) [m].
-    inertia : float
-        Inertia about an axis through it that is normal to the plane of the motion [kg m2].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> block = dd.GivenMass(1350.0, (-0.125, 1.5), 1019.53125)
-    >>> block.at
-    (-0.125, 1.5)
-    """
-
-    mass: float
-    at: Point
-    inertia: float
-
-    def _rows(self) -> list[list[float]]:
-        """The numbers of its row behind body and part."""
-        x, y = _point("at", self.at)
-        mass, inertia = as_number("mass", self.mass), as_number("inertia", self.inertia)
-        return [[_MASS, 0.0, 0.0, -x, y, mass, inertia, 0.0, 0.0]]
-
-
-@dataclass(frozen=True)
-class Body:
-    """A rigid body of a chain: the sum of its parts.
-
-    Parameters
-    ----------
-    parts : sequence of Part, Sector or GivenMass
-        Its parts.
-    stands : bool, optional
-        Whether it stands still in this mechanism, such as the left pier of a portal that sways to the right. It is then
-        body 0, and is not counted among the others.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> block = dd.Body([dd.GivenMass(1350.0, (-0.125, 1.5), 1019.53125)])
-    >>> len(block.parts)
-    1
-    """
-
-    parts: Sequence[Part | Sector | GivenMass]
-    _: KW_ONLY
-    stands: bool = False
-
-    def __post_init__(self) -> None:
-        for part in self.parts:
-            if not isinstance(part, (Part, Sector, GivenMass)):
-                raise wrong_type("parts", part, "dondolo.Part, Sector or GivenMass")
-
-
-@dataclass(frozen=True)
-class Pin:
-    """A hinge: a point that two bodies share, or a body and the ground.
-
-    Parameters
-    ----------
-    body, other : int
-        Numbers of the bodies, from 1; 0 is the ground.
-    at : tuple
-        The point (x, y) at rest [m].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> dd.Pin(1, 0, (0.0, 0.0))  # the foot of body 1 on the ground
-    Pin(body=1, other=0, at=(0.0, 0.0))
-    """
-
-    body: int
-    other: int
-    at: Point
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        return [2.0, self.body, self.other, -x, y, 0.0, -x, y]
-
-
-@dataclass(frozen=True)
-class Guide:
-    """A joint that holds one direction: there the distance of a point of each body stays as it is.
-
-    Parameters
-    ----------
-    body, other : int
-        Numbers of the bodies, from 1; 0 is the ground.
-    at : tuple
-        Point (x, y) of the first at rest [m].
-    angle : float
-        Direction that is held, from +x towards +y: 0 for a floor that holds the top of a wall sideways [deg].
-    other_at : tuple, optional
-        Point of the other at rest; the same one if left out [m].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> top = dd.Guide(2, 0, (0.0, 3.0))  # a floor holds the top of body 2 sideways
-    >>> top.angle
-    0.0
-    """
-
-    body: int
-    other: int
-    at: Point
-    _: KW_ONLY
-    angle: float = 0.0
-    other_at: Point | None = None
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        far = (x, y) if self.other_at is None else _point("other_at", self.other_at)
-        return [1.0, self.body, self.other, -x, y, as_number("angle", self.angle), -far[0], far[1]]
-
-
-@dataclass(frozen=True)
-class PointLoad:
-    """A vertical load on a body of a chain.
-
-    Parameters
-    ----------
-    body : int
-        Number of the body, from 1; 0: one that stands still.
-    at : tuple
-        Where it rests (x, y) [m].
-    force : float
-        Its weight [N].
-    inertia : {'none', 'vertical', 'both'}
-        Which mass of it the chain moves: docs/loads.md.
-    held : bool, optional
-        Whether something else holds it sideways, such as the floor of a strip: it then counts in the moment of a check
-        alone.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> beam = dd.PointLoad(1, (-0.15, 1.5), 4e3, inertia="both")
-    >>> beam.held
-    False
-    """
-
-    body: int
-    at: Point
-    force: float
-    _: KW_ONLY
-    inertia: Literal["none", "vertical", "both"]
-    held: bool = False
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        one_of("inertia", self.inertia, tuple(_INERTIAS))
-        own = _INERTIAS[self.inertia]
-        return [self.body, -x, y, as_number("force", self.force), *own, 0.0, 0.0, 0.0, float(self.held)]
-
-
-@dataclass(frozen=True)
-class PointMass:
-    """A mass that a body of a chain pushes and does not carry.
-
-    Parameters
-    ----------
-    body : int
-        Number of the body, from 1.
-    at : tuple
-        Where it is pushed (x, y) [m].
-    mass : float
-        The mass [kg].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> dd.PointMass(1, (-0.2, 3.0), 600.0)
-    PointMass(body=1, at=(-0.2, 3.0), mass=600.0)
-    """
-
-    body: int
-    at: Point
-    mass: float
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        return [self.body, -x, y, 0.0, 0.0, 0.0, as_number("mass", self.mass), 0.0, 0.0, 0.0]
-
-
-@dataclass(frozen=True)
-class PointThrust:
-    """A force on a body of a chain that keeps its direction.
-
-    Parameters
-    ----------
-    body : int
-        Number of the body, from 1.
-    at : tuple
-        Where it acts (x, y) [m].
-    force : float
-        The force [N].
-    angle : float, optional
-        Its direction, from +x towards +y, outwards if left out [deg].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> arch = dd.PointThrust(1, (-0.2, 3.0), 1.5e3)
-    >>> arch.angle
-    0.0
-    """
-
-    body: int
-    at: Point
-    force: float
-    _: KW_ONLY
-    angle: float = 0.0
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        force, angle = as_number("force", self.force), as_number("angle", self.angle)
-        return [self.body, -x, y, 0.0, 0.0, 0.0, 0.0, force, angle, 0.0]
 
 
 class ChainMotion(NamedTuple):
@@ -443,7 +140,7 @@ class Chain(Wall):
             for one in given:
                 if not isinstance(one, kind):
                     raise wrong_type(name, one, " or ".join(f"dondolo.{each.__name__}" for each in kind))
-            numbers = _flat_bodies(given) if name == "bodies" else [float(x) for one in given for x in one._row()]
+            numbers = flat_bodies(given) if name == "bodies" else [float(x) for one in given for x in one._row()]
             object.__setattr__(self, table, numbers or None)
         self._understand(**files)
 
@@ -570,7 +267,7 @@ class Chain(Wall):
         last: tuple[float, ...] = ()
         for row in self._rows("body_table"):
             body, kind, is_opening, at = int(row[0]), int(row[2]), bool(row[3] < 0.0), (-row[5], row[6])
-            if kind == _SECTOR:
+            if kind == SECTOR:
                 angles = np.radians(np.linspace(row[9], row[10], _SIDES + 1))
                 arcs = [
                     (at[0] + r * np.cos(a), at[1] + r * np.sin(a))
@@ -578,7 +275,7 @@ class Chain(Wall):
                     for a in way
                 ]
                 found.append((body, is_opening, arcs))
-            elif kind == _CORNER:
+            elif kind == CORNER:
                 if tuple(row[:3]) != last:
                     found.append((body, is_opening, []))
                 found[-1][2].append(at)
@@ -590,23 +287,3 @@ class Chain(Wall):
         facts = dict(super()._facts())
         facts |= {table: str(len(self._rows(table))) for table in TABLES if table in facts}
         return [(what, text) for what, text in facts.items() if what not in ("R", "alpha")]
-
-
-def _point(name: str, at: Any) -> Point:
-    """A point as two numbers."""
-    try:
-        x, y = at
-    except (TypeError, ValueError):
-        raise argument_error("not_numbers", name, f" = {at!r}: must be two numbers, x and y") from None
-    return as_number(name, x), as_number(name, y)
-
-
-def _flat_bodies(bodies: Sequence[Body]) -> list[float]:
-    """Rows of bodies, one after the other: those that stand still are one, of number 0."""
-    found, moving, standing = [], 0, 0
-    for body in bodies:
-        moving += not body.stands
-        for k, part in enumerate(body.parts, 1 + standing * body.stands):
-            found += [float(number) for row in part._rows() for number in (0 if body.stands else moving, k, *row)]
-        standing += len(body.parts) * body.stands
-    return found

@@ -16,6 +16,7 @@ from dondolo.figures.wording import say
 from dondolo.walls.chains import Chain
 from dondolo.walls.drawing_chain import draw_chain
 from dondolo.walls.drawing_loads import caption, draw_loads
+from dondolo.walls.elevation import height_of
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import shape, wedges, width_of
@@ -175,7 +176,8 @@ def _free_height(wall: MasonryWall) -> tuple[float, bool]:
     taken = [0.0, wall.height]
     if 0.0 < support_height(wall) < wall.height:
         taken.append(support_height(wall))
-    taken += [part.height for of in ("ties", "thrusts", "springs") for part in parts_of(wall, of)]
+    taken += [part.height for of in ("ties", "springs") for part in parts_of(wall, of)]
+    taken += [height_of(wall, thrust) for thrust in parts_of(wall, "thrusts")]
     if parts_of(wall, "interlock"):
         taken.append(wall.height / 3.0)
     taken.sort()

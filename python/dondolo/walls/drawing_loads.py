@@ -15,6 +15,7 @@ import numpy as np
 from dondolo.figures import style
 from dondolo.figures.themes import theme
 from dondolo.figures.wording import decimal, in_english, say
+from dondolo.walls.elevation import height_of
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import Load, Thrust, Tie, parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys, width_of
@@ -78,18 +79,19 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
         _arrow_down(ax, other + part * (active - other), size, words, is_mass=lifted > 0.0)
     for load in parts_of(wall, "loads"):
         lifted, pushed = _PARTS[load.inertia] if load.inertia else (load.lifted, load.pushed)
-        words = f"{_force(load)} {_in_words(lifted, pushed)}"
-        _arrow_down(ax, _place(wall, load.depth, load.height, rotation), size, words, is_mass=lifted > 0.0)
+        words = f"{force_in_words(load)} {_in_words(lifted, pushed)}"
+        _arrow_down(ax, _place(wall, load.depth, height_of(wall, load), rotation), size, words, is_mass=lifted > 0.0)
     for mass in parts_of(wall, "inertial_masses"):
-        at = _place(wall, mass.depth, mass.height, rotation)
+        at = _place(wall, mass.depth, height_of(wall, mass), rotation)
         ax.plot(*at, marker="s", color=style.BLACK, markersize=7, zorder=5)
         _words(ax, at, say("{mass:.4g} kg/m pushed", mass=mass.mass), (9, -3))
     for thrust in parts_of(wall, "thrusts"):
-        depth = inner_face(wall, thrust.height) if thrust.depth is None else thrust.depth
-        at = _place(wall, depth, thrust.height, rotation)
+        height = height_of(wall, thrust)
+        depth = inner_face(wall, height) if thrust.depth is None else thrust.depth
+        at = _place(wall, depth, height, rotation)
         arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
         ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
-        words = say("{force} thrust", force=_force(thrust))
+        words = say("{force} thrust", force=force_in_words(thrust))
         _words(ax, np.subtract(at, (1.4 * size, 0.0)), words, (0, 4), ha="center")
     for spring in parts_of(wall, "springs"):
         at = _place(wall, spring.depth, spring.height, rotation)
@@ -196,7 +198,7 @@ def _place(wall: MasonryWall, depth: float, height: float, rotation: float) -> P
     return np.array([width_of(wall) - at[0], at[1]]) if rotation < 0.0 else at
 
 
-def _force(part: Load | Thrust) -> str:
+def force_in_words(part: Load | Thrust) -> str:
     """The force of a load or a thrust, per metre of wall or in all."""
     return _with_prefix(part.force, "N/m") if part.force is not None else _with_prefix(part.total or 0.0, "N")
 

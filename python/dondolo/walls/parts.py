@@ -138,6 +138,7 @@ class Load(Part):
     pushed: float | None = None
     seat: float | None = None
     total: float | None = None
+    x: float | None = None
 
 
 @_described
@@ -160,6 +161,7 @@ class InertialMass(Part):
     _: KW_ONLY
     depth: float
     height: float
+    x: float | None = None
 
 
 @_described
@@ -184,6 +186,7 @@ class Thrust(Part):
     height: float
     decay: float | None = None
     total: float | None = None
+    x: float | None = None
 
 
 @_described

@@ -262,8 +262,8 @@ contains
 
       if (contact == touches_base) then
          do i = 1, size(names)
-            if (input%has(trim(names(i)))) call problems%note(trim(names(i))//': not of a free-standing wall, which touches '// &
-               & 'nothing of the building but what it stands on', not_together, trim(names(i)))
+            if (input%has(trim(names(i)))) call problems%note(trim(names(i))//': not of a free-standing wall nor of one with '// &
+               & 'an inclined axis, which touch nothing of the building but what they stand on', not_together, trim(names(i)))
          end do
          return
       end if

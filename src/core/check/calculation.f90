@@ -67,6 +67,9 @@ contains
       type is (one_block_model_type)
          call list_masonry(items, model%body, wall%gravity)
          call list_actions(items, model%body, wall%gravity)
+         ! Of weights about an inclined axis only their share in the plane of the motion holds
+         where (is_given(items%stabilising) .and. is_given(items%arm)) &
+            & items%stabilising = model%body%actions%gravity_share*items%stabilising
       type is (two_block_model_type)
          select type (mechanism => wall%mechanism)
          type is (two_block_type)

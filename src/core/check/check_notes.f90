@@ -13,6 +13,7 @@ module dondolo_check_notes
    public :: make_check_notes
 
    !> Codes
+   character(len=*), parameter :: halves_jam = 'halves_jam'
    character(len=*), parameter :: hinge_above_usual = 'hinge_above_usual', hinge_below_usual = 'hinge_below_usual', &
       & hinge_not_weakest = 'hinge_not_weakest', least_elsewhere = 'least_elsewhere', top_without_load = 'top_without_load', &
       & diaphragm_not_in_demand = 'diaphragm_not_in_demand', anchor_before_bar = 'anchor_before_bar', &
@@ -46,6 +47,13 @@ contains
       call add_free_notes(sheet, notes)
       call add_sliding_notes(sheet, notes)
       if (sheet%value('mechanism', '', 'weakest_hinge') > 0.0_wp) call add_strip_notes(sheet, notes)
+      if (sheet%value('mechanism', '', 'halves_overlap') > 0.0_wp) then
+         note = warning_type(halves_jam)
+         call note%with('overlap_m', sheet%value('mechanism', '', 'halves_overlap'))
+         call notes%add(note, 'both halves of the gable cross the plane of its axis, and would overlap by '// &
+            & rounded(sheet%value('mechanism', '', 'halves_overlap'))//' m at d_0*: they jam, so that alpha_0 is on the safe '// &
+            & 'side, and displacements and what follows from them are not proved')
+      end if
       if (sheet%value('mechanism', '', 'diaphragm_period') > 0.0_wp) call notes%add(warning_type(diaphragm_not_in_demand), &
          & 'the flexible diaphragm at the top moves the strip in its histories, but is not in the spectrum of the code: the '// &
          & 'demand of the kinematic check may be too small')
@@ -93,7 +101,8 @@ contains
       integer :: i
 
       if (.not. sheet%value('mechanism', '', 'friction_needed') >= 0.0_wp) call notes%add(warning_type(sliding_unknown), &
-         & 'the forces at the hinges of a table or a chain are not known: whether they slide before they turn is not checked')
+         & 'the forces at the hinges of a table, a chain or an inclined axis are not known: whether they slide before they '// &
+         & 'turn is not checked')
       friction = sheet%value('mechanism', '', 'friction')
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))

@@ -78,6 +78,7 @@ module dondolo_check_sheet
       & quantity_type('mass_ratio', 'e*', '', 'the same / the whole mass'), &
       & quantity_type('a_0', 'a_0*', 'm/s2', 'spectral acceleration that starts the mechanism, alpha_0 g/(e* FC)'), &
       & quantity_type('d_0', 'd_0*', 'm', 'displacement at which the multiplier vanishes'), &
+      & quantity_type('halves_overlap', '', 'm', 'how far both halves of a gable would overlap there, which jam'), &
       & quantity_type('hinge', 'r', '', 'hinge of a strip, height / height of the wall'), &
       & quantity_type('lowest_hinge', 'r_min', '', 'lowest hinge among which the weakest is looked for'), &
       & quantity_type('highest_hinge', 'r_max', '', 'highest hinge among which the weakest is looked for'), &

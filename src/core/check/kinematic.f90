@@ -10,6 +10,9 @@
 !>     a = alpha g/(e* FC)                                                                                C8.7.1.3
 !>     d = d_C sum (P + Q) z^2/[z_C sum (P + Q) z]                d_C = z_C sin q                         C8.7.1.4
 !>
+!> About an axis that rises at beta only the share cos beta of P acts against the mechanism, and levers are normal to the axis
+!> (dondolo_wall_axis).
+!>
 !> Ties hold with their largest force up to the rotation at which they break, and friction of transverse walls with what is left
 !> of it; alpha vanishes at the capacity of the wall without them, since they do not act up to collapse.
 !>
@@ -63,6 +66,8 @@ module dondolo_check_kinematic
       real(wp) :: mass_ratio = 0.0_wp
       !> Displacement at which the multiplier vanishes d_0 [m]
       real(wp) :: end_displacement = 0.0_wp
+      !> How far both halves of a gable would overlap there [m]; 0: it is no half
+      real(wp) :: overlap = 0.0_wp
       !> Displacement at which a load loses its seat [m]; huge: none does
       real(wp) :: unseating = huge(1.0_wp)
       !> Displacement at which ties break that carry more than half of the greatest multiplier [m]; huge: none do
@@ -102,6 +107,8 @@ module dondolo_check_kinematic
       type(elastic_joint_type) :: joint
       !> What gives the moments
       class(mechanism_type), allocatable, private :: mechanism
+      !> Does the wall turn about an inclined axis?
+      logical, private :: is_inclined = .false.
       !> Radius of the edge a [m]
       real(wp), private :: edge = 0.0_wp
       !> Sums of P + Q, and of their products with heights and depths from the hinge
@@ -150,6 +157,11 @@ contains
       select type (model => wall%model)
       type is (one_block_model_type)
          call take_block(kinematic, model%body)
+         ! Each half goes beyond the plane of the axis by (t - u) sin beta for a unit of rotation, at its inner face.
+         associate (actions => model%body%actions, t => model%body%sections(1)%thickness)
+            if (wall%mechanism%is_static) kinematic%overlap = 2.0_wp*(t - actions%hinge)*sqrt(1.0_wp - actions%gravity_share**2) &
+               & *wall%mechanism%capacity
+         end associate
       type is (two_block_model_type)
          select type (mechanism => wall%mechanism)
          type is (two_block_type)
@@ -184,8 +196,9 @@ contains
          kinematic%wedge_first = sum(items%first, mask=of_wedges)
       end associate
       associate (lifts => is_given(items%arm), holds => is_given(items%stabilising))
-         ! The forces at the hinges of a chain do not follow from the sums.
-         if (.not. allocated(kinematic%table)) kinematic%carried = sum(items%force, mask=lifts .and. holds)
+         ! The forces at the hinges of a chain do not follow from the sums, nor do those along an inclined axis.
+         if (.not. (allocated(kinematic%table) .or. kinematic%is_inclined)) kinematic%carried = sum(items%force, &
+            & mask=lifts .and. holds)
          kinematic%thrust = sum(items%force, mask=is_given(items%overturning))
          kinematic%restraint = sum(items%force, mask=holds .and. .not. lifts)
       end associate
@@ -247,6 +260,7 @@ contains
       real(wp) :: first, second
 
       kinematic%edge = body%actions%edge
+      kinematic%is_inclined = body%actions%gravity_share < 1.0_wp
       if (allocated(body%anchors)) kinematic%anchors = body%anchors
       associate (carried => body%actions%carried, masonry => body%body)
          weight = [kinematic%gravity*masonry%mass, carried%weight + &

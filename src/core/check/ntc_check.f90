@@ -167,6 +167,7 @@ contains
          & times(kinematic%gravity, kinematic%mass)//'/'//shown(kinematic%weight)))
       call put_activation(sheet, 'mechanism', '', kinematic, input%knowledge_factor)
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
+      if (kinematic%overlap > 0.0_wp) call sheet%add('mechanism', '', 'halves_overlap', kinematic%overlap)
       if (kinematic%level > 0.0_wp) call sheet%add('mechanism', '', 'level', kinematic%level)
       call put_building(sheet, input)
       if (kinematic%diaphragm_period > 0.0_wp) call sheet%add('mechanism', '', 'diaphragm_period', kinematic%diaphragm_period)

@@ -34,6 +34,7 @@ module dondolo_check_table_check
       real(wp), allocatable, private :: travel(:), lever(:)
    contains
       procedure :: displacement
+      procedure, private :: fitted
       procedure :: rotation
       procedure :: weighted_lever
    end type table_check_type
@@ -70,8 +71,8 @@ contains
       end if
       if (allocated(error)) return
       slope = 2.0_wp/check%last*chebyshev_value(chebyshev_slope(check%travel), -1.0_wp)
-      if (abs(check%displacement(0.0_wp)) > typed*check%displacement(check%capacity)) then
-         call raise_input(error, 'travel: begins at '//rounded(check%displacement(0.0_wp))//' m, must begin at 0', out_of_range, &
+      if (abs(check%fitted(0.0_wp)) > typed*check%fitted(check%capacity)) then
+         call raise_input(error, 'travel: begins at '//rounded(check%fitted(0.0_wp))//' m, must begin at 0', out_of_range, &
             & 'travel')
       else if (abs(slope*first - sum(model%weight*model%displacement**2)) > sloped*slope*first) then
          call raise_input(error, 'travel: begins with '//rounded(slope)//' m for a unit of rotation, must begin with '// &
@@ -80,7 +81,7 @@ contains
       end if
       do i = 1, places
          if (allocated(error)) return
-         if (.not. check%displacement(at(i)) > check%displacement(at(i - 1))) call raise_input(error, 'travel: must grow up to '// &
+         if (.not. check%fitted(at(i)) > check%fitted(at(i - 1))) call raise_input(error, 'travel: must grow up to '// &
             & 'the rotation at which the moment vanishes, does not at '//rounded(at(i))//' rad', out_of_range, 'travel')
          if (.not. check%weighted_lever(at(i)) > 0.0_wp) call raise_input(error, 'weighted_lever: must be positive up to the '// &
             & 'rotation at which the moment vanishes, is not at '//rounded(at(i))//' rad', out_of_range, 'weighted_lever')
@@ -137,8 +138,18 @@ contains
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
-      displacement = chebyshev_value(self%travel, 2.0_wp*q/self%last - 1.0_wp)
+      displacement = 0.0_wp
+      if (q > 0.0_wp) displacement = max(0.0_wp, self%fitted(q))
    end function displacement
+
+   !> The same by its series, which at rest is 0 but for rounding, of either sign [m]
+   pure real(wp) function fitted(self, q)
+      class(table_check_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      fitted = chebyshev_value(self%travel, 2.0_wp*q/self%last - 1.0_wp)
+   end function fitted
 
    !> Rotation at a displacement
    pure real(wp) function rotation(self, d)

@@ -7,10 +7,11 @@ module dondolo_fragility_certified
    use dondolo_building_floors, only : floors_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_fragility_ordinal, only : fit_ordinal
+   use dondolo_fragility_rounding, only : run_rounded
    use dondolo_fragility_stripes, only : stripes_type, take_motions
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_certificate, only : certificate_type, certify_histories
-   use dondolo_motion_certified, only : in_double
+   use dondolo_motion_certified, only : in_double, not_known
    use dondolo_motion_ensemble, only : ensemble_type
    use dondolo_motion_queue, only : progress_interface
    use dondolo_record_suite, only : suite_type
@@ -26,6 +27,9 @@ module dondolo_fragility_certified
       integer, allocatable :: fewest(:), most(:)
       !> Theta with all of them, and with none; 0 where there is no curve
       real(wp) :: theta_lowest = 0.0_wp, theta_highest = 0.0_wp
+      !> Histories of which it is known how their records are printed, and those of them that reach the state either with the
+      !> record as it is or within the rounding of its digits, but not with both
+      integer :: rounded = 0, changed = 0
    end type state_bounds_type
 
    !> Memory that a certified history takes [bytes]
@@ -51,6 +55,7 @@ contains
       type(suite_type), pointer :: motions
       logical, allocatable :: doubtful(:, :)
       type(ensemble_type) :: ensemble
+      real(wp), allocatable :: rounded(:)
       integer :: i, j, k, place
 
       call check_room(bytes_of_certified*real(size(stripes%response), wp), error)
@@ -78,6 +83,11 @@ contains
                stripes%certified(i, j) = certificates(k)%certified_type
             end do
          end do
+         ensemble%record = pack(spread(stripes%record, 2, size(stripes%levels)), stripes%ran)
+         ensemble%scale = pack(spread(real(stripes%polarity, wp), 2, size(stripes%levels))*stripes%scale, stripes%ran)
+         call run_rounded(rounded, wall, study%suite%records, ensemble, study%solver, study%threads, error, progress)
+         if (allocated(error)) return
+         stripes%certified%rounded = unpack(rounded, stripes%ran, not_known)
       end associate
    end subroutine certify_stripes
 
@@ -100,6 +110,9 @@ contains
       do k = 1, size(thresholds)
          bounds(k)%fewest = count(stripes%ran .and. stripes%certified%lowest >= thresholds(k), dim=1)
          bounds(k)%most = count(stripes%ran .and. stripes%certified%highest >= thresholds(k), dim=1)
+         bounds(k)%rounded = count(stripes%certified%rounded > not_known)
+         bounds(k)%changed = count(stripes%certified%rounded > not_known .and. &
+            & (stripes%certified%rounded >= thresholds(k) .neqv. stripes%response%edp >= thresholds(k)))
       end do
       call compute_thetas(stripes%certified%highest, bounds%theta_lowest)
       if (.not. allocated(error)) call compute_thetas(stripes%certified%lowest, bounds%theta_highest)

@@ -223,6 +223,11 @@ contains
 
       call check_variant(error)
       if (allocated(error)) return
+      if (mechanism%is_static) then
+         call raise_input(error, 'half_gable: has a check and no time histories, since both halves of a gable cross the plane '// &
+            & 'of its axis as they turn, and jam', not_together, 'half_gable')
+         return
+      end if
       if (present(is_shaken)) then
          if (is_shaken .and. .not. mechanism%knows_vertical()) then
             call raise_input(error, 'vertical_lever: must be given for records with vertical motion: without it the table does '// &

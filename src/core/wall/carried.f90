@@ -58,6 +58,8 @@ module dondolo_wall_carried
       real(wp) :: hinge = 0.0_wp
       !> Radius a of the edge that the wall rolls on; the hinge at rest is then as deep [m]
       real(wp) :: edge = 0.0_wp
+      !> Share of gravity in the plane of the motion: cos beta of a panel that turns about a line which rises at beta
+      real(wp) :: gravity_share = 1.0_wp
       !> Are forces and masses those of a whole body, and not per metre of wall?
       logical :: is_whole = .false.
    contains

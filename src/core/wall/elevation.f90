@@ -6,6 +6,7 @@
 !>
 !>     mass  rho t A/b          height of the centroid  B/A          inertia about it  rho t (C - B^2/A + A t^2/12)/b
 !>
+!> Of a panel that turns about another line of its face, this line is in place of the base (dondolo_wall_axis).
 !> by Green's theorem from the corners (docs/mechanisms.md).
 module dondolo_wall_elevation
    use dondolo_base_error, only : not_given, not_together, out_of_range, problems_type, wrong_length
@@ -13,6 +14,7 @@ module dondolo_wall_elevation
    use dondolo_base_property, only : choices_length, is_list, most_choices, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
+   use dondolo_wall_axis, only : axis_of, axis_type, check_axis
    use dondolo_wall_lists, only : take
    use dondolo_wall_rigid_body, only : rigid_body_type, same
    implicit none
@@ -63,12 +65,19 @@ contains
       end associate
    end function eaves_of_elevation
 
-   !> The height of the highest corner; 0: there is no elevation
+   !> The height of the highest corner above the base, or above the line that the facade turns about; 0: there is no elevation
    pure real(wp) function top_of_elevation(input) result(top)
       !> Settings of the wall
       class(settings_type), intent(in) :: input
 
-      top = max(0.0_wp, maxval([0.0_wp, input%list('elevation_z')]))
+      real(wp), allocatable :: x(:), z(:)
+      type(axis_type) :: axis
+
+      x = input%list('elevation_x')
+      z = input%list('elevation_z')
+      axis = axis_of(input)
+      if (size(x) == size(z)) z = axis%above(x, z)
+      top = max(0.0_wp, maxval([0.0_wp, z]))
    end function top_of_elevation
 
    !> Read the elevation of a facade, and check it; nothing where there is none
@@ -80,11 +89,13 @@ contains
       !> The facade per metre; not allocated: it has no elevation
       type(rigid_body_type), allocatable, intent(out) :: body
 
-      real(wp), allocatable :: x(:), z(:), left(:), low(:), width(:), height(:)
-      real(wp) :: sums(3), part(3), area
+      real(wp), allocatable :: x(:), z(:), left(:), low(:), width(:), height(:), corner_x(:, :), corner_z(:, :)
+      type(axis_type) :: axis
+      real(wp) :: sums(3), area
       integer :: before, i
 
       before = problems%count
+      call check_axis(input, problems)
       call take(input, problems, 'opening_z', 'opening_x', low)
       call take(input, problems, 'opening_width', 'opening_x', width)
       call take(input, problems, 'opening_height', 'opening_x', height)
@@ -117,7 +128,9 @@ contains
          if (abs(b - wide) > length_tolerance*wide) call problems%note('facade_length = '//to_text(b)//': must be '// &
             & rounded(wide)//' m, the width of the elevation', out_of_range, 'facade_length')
       end associate
-      sums = moments(x, z)
+      axis = axis_of(input)
+      sums = moments(axis%along(x, z), axis%above(x, z))
+      allocate (corner_x(4, size(left)), corner_z(4, size(left)))
       do i = 1, size(left)
          ! What the elevation has within the rectangle is all of the rectangle
          associate (right => left(i) + width(i), top => low(i) + height(i))
@@ -126,16 +139,17 @@ contains
                & rounded(width(i)*height(i) - area)//' m2 of its '//rounded(width(i)*height(i))//' m2 lie outside the '// &
                & 'elevation, it must lie within', out_of_range, 'opening_x')
             if (overlaps(i)) call problems%note('opening '//to_text(i)//': overlaps one before it', out_of_range, 'opening_x')
-            part = moments([left(i), right, right, left(i)], [low(i), low(i), top, top])
+            corner_x(:, i) = axis%along([left(i), right, right, left(i)], [low(i), low(i), top, top])
+            corner_z(:, i) = axis%above([left(i), right, right, left(i)], [low(i), low(i), top, top])
          end associate
-         sums = sums - part
+         sums = sums - moments(corner_x(:, i), corner_z(:, i))
       end do
       if (problems%count > before) return
       if (.not. sums(1) > same*(maxval(x) - minval(x))*(maxval(z) - minval(z))) then
-         call problems%note('opening_x: the openings leave no masonry above the base', out_of_range, 'opening_x')
+         call problems%note('opening_x: the openings leave no masonry above the '//line(), out_of_range, 'opening_x')
          return
       end if
-      call check_levels(x, z, left, low, width, height, problems)
+      call check_levels(axis%along(x, z), axis%above(x, z), corner_x, corner_z, line(), problems)
       if (problems%count > before) return
       allocate (body)
       associate (t => input%number('thickness'), per => input%number('density')/input%number('facade_length'))
@@ -146,6 +160,14 @@ contains
       end associate
 
    contains
+
+      !> The line that the facade turns about, in a word
+      pure function line() result(word)
+         character(len=:), allocatable :: word
+
+         word = 'base'
+         if (input%has('axis_x')) word = 'axis'
+      end function line
 
       !> Does an opening overlap one before it?
       pure logical function overlaps(number)
@@ -233,11 +255,13 @@ contains
    end subroutine cut
 
    !> Check that masonry is at every level from the base to the top
-   subroutine check_levels(x, z, left, low, width, height, problems)
+   subroutine check_levels(x, z, hole_x, hole_z, line, problems)
       !> Corners [m]
       real(wp), intent(in) :: x(:), z(:)
-      !> Openings, which lie within the polygon and apart from each other [m]
-      real(wp), intent(in) :: left(:), low(:), width(:), height(:)
+      !> Corners of openings, a column each, which lie within the polygon and apart from each other [m]
+      real(wp), intent(in) :: hole_x(:, :), hole_z(:, :)
+      !> What z = 0 is
+      character(len=*), intent(in) :: line
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
@@ -247,19 +271,19 @@ contains
       integer :: i
 
       ! Between two neighbours of these levels no edge begins or ends
-      edges = [0.0_wp, z, low, low + height]
+      edges = [0.0_wp, z, hole_z]
       bottom = 0.0_wp
       do while (any(edges > bottom + same*maxval(z)))
          top = minval(edges, edges > bottom + same*maxval(z))
          area = area_within(x, z, minval(x), maxval(x), bottom, top)
          taken = 0.0_wp
-         do i = 1, size(left)
-            taken = taken + width(i)*max(0.0_wp, min(top, low(i) + height(i)) - max(bottom, low(i)))
+         do i = 1, size(hole_x, 2)
+            taken = taken + area_within(hole_x(:, i), hole_z(:, i), minval(x), maxval(x), bottom, top)
          end do
          least = same*(maxval(x) - minval(x))*(top - bottom)
-         levels = 'from '//rounded(bottom)//' to '//rounded(top)//' m above the base, what is above rests on nothing'
+         levels = 'from '//rounded(bottom)//' to '//rounded(top)//' m above the '//line//', what is above rests on nothing'
          if (.not. area > least) then
-            call problems%note('elevation_z: no masonry is '//levels//'; heights are from the base', out_of_range, 'elevation_z')
+            call problems%note('elevation_z: no masonry is '//levels//'; heights are from the '//line, out_of_range, 'elevation_z')
             return
          else if (.not. area - taken > least) then
             call problems%note('opening_x: openings take the whole width of the facade '//levels, out_of_range, 'opening_x')

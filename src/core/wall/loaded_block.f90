@@ -48,6 +48,8 @@ module dondolo_wall_loaded_block
       private
       !> Radius of the edge a [m]
       real(wp) :: edge = 0.0_wp
+      !> Gravity in the plane of the motion [m/s2]
+      real(wp) :: down = 0.0_wp
       !> Centroid of the masonry from the hinge [m]
       real(wp) :: e = 0.0_wp, f = 0.0_wp
       !> Part of J that does not change [kg m2]
@@ -134,6 +136,7 @@ contains
 
       mechanism%two_sided = two_sided
       mechanism%gravity = gravity
+      mechanism%down = actions%gravity_share*gravity
       mechanism%edge = actions%edge
       mechanism%e = body%depth - actions%hinge
       mechanism%f = body%height - actions%edge
@@ -146,7 +149,7 @@ contains
             call mechanism%whole%add(both, e, f)
             call mechanism%pushed%add(thing%pushed - both, e, f)
             call mechanism%lifted%add(thing%lifted - both, e, f)
-            call mechanism%dead%add(thing%dead, e, f)
+            call mechanism%dead%add(actions%gravity_share*thing%dead, e, f)
          end associate
       end do
       ! X^2 + Y^2 = a^2 + e^2 + f^2 + 2 a (f cos q + e sin q): without an edge J stays the same to the bit.
@@ -280,7 +283,7 @@ contains
             & + (k**2*lifted%ee - 2.0_wp*cross*lifted%fe + s**2*lifted%ff)
          c = a*(whole%y(s, k) + pushed%y(s, k)) + double*(pushed%fe - lifted%fe) &
             & + cross*((pushed%ee - pushed%ff) - (lifted%ee - lifted%ff))
-         g = self%gravity*(whole%y(s, k) + lifted%y(s, k))
+         g = self%down*(whole%y(s, k) + lifted%y(s, k))
          l = whole%x(a, s, k) + pushed%x(a, s, k)
          load = self%thrust%x(a, s, k) - self%dead%y(s, k)
          if (self%is_sprung) then
@@ -313,7 +316,7 @@ contains
       associate (a => self%edge, thrust => self%thrust, spring => self%spring)
          r = a*q
          t = versine(q)
-         v = self%gravity*(self%whole%x(a, s, k) + self%lifted%x(a, s, k)) + self%dead%x(a, s, k) &
+         v = self%down*(self%whole%x(a, s, k) + self%lifted%x(a, s, k)) + self%dead%x(a, s, k) &
             & - (r*thrust%w + s*thrust%f + t*thrust%e)
          if (self%is_sprung) v = v + 0.5_wp*(r**2*spring%w + s**2*spring%ff + t**2*spring%ee) &
             & + r*s*spring%f + r*t*spring%e + s*t*spring%fe
@@ -347,7 +350,8 @@ contains
 
       share = 0.0_wp
       tilt = 0.0_wp
-      if (self%two_sided) return
+      ! What turns about an inclined line leans on nothing that turns about a level one.
+      if (self%two_sided .or. self%down < self%gravity) return
       call self%terms(0.0_wp, j, c, g, l, load)
       share = j/l
       tilt = turning(self)/l
@@ -358,7 +362,7 @@ contains
       type(loaded_block_type), intent(in) :: block
 
       associate (thrust => block%free_thrust)
-         turning = block%gravity*(block%whole%f + block%lifted%f) + block%dead%f + thrust%e &
+         turning = block%down*(block%whole%f + block%lifted%f) + block%dead%f + thrust%e &
             & + sum(block%fading%force*block%fading%e)
       end associate
    end function turning
@@ -377,7 +381,7 @@ contains
 
       if (mechanism%moment(0.0_wp) > 0.0_wp) return
       associate (carried => actions%carried, thrusts => actions%thrusts)
-         holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
+         holds = mechanism%down*body%mass*mechanism%e + actions%gravity_share*sum(carried%weight*(carried%depth - actions%hinge))
          call raise_input(error, trim(merge('thrust_total', 'thrust      ', actions%is_whole))// &
             & ': the wall is not stable at rest'//trim(merge(' without its ties', '                 ', &
             & size(actions%restraints) > 0))//'; its weights resist with '//rounded(holds)// &
@@ -403,7 +407,7 @@ contains
       end_of_all = mechanism%geometric_end()
       if (.not. mechanism%spring%w > 0.0_wp .and. size(mechanism%fading) == 0) then
          associate (m => mechanism)
-            holding = m%gravity*(m%whole%e + m%lifted%e) + m%dead%e - m%thrust%f
+            holding = m%down*(m%whole%e + m%lifted%e) + m%dead%e - m%thrust%f
             if (m%edge*m%thrust%w > 0.0_wp) then
                mechanism%capacity = acos(m%edge*m%thrust%w/hypot(holding, turning(m))) - atan2(turning(m), holding)
             else

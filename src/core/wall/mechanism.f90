@@ -19,6 +19,8 @@ module dondolo_wall_mechanism
    type, abstract :: mechanism_type
       !> Can it rock to both sides? If so the side changes at every impact
       logical :: two_sided = .false.
+      !> Is its motion not known, so that it has no time histories?
+      logical :: is_static = .false.
       !> Gravity [m/s2], which vertical ground acceleration adds to
       real(wp) :: gravity = 0.0_wp
       !> Rotation q_c at which the restoring moment G - Q vanishes [rad]

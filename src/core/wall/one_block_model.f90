@@ -11,6 +11,7 @@ module dondolo_wall_one_block_model
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded
    use dondolo_building_input, only : leans
+   use dondolo_wall_axis, only : axis_of, axis_type
    use dondolo_wall_block, only : block_type, new_block
    use dondolo_wall_body, only : read_corner_body, read_wall_body, take_sections, wall_body_type
    use dondolo_wall_carried, only : describe_actions
@@ -140,6 +141,8 @@ module dondolo_wall_one_block_model
       & property_type('load_total', is_list, unit='N', owners=corner, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
       &   usual_least=100.0_wp, usual_most=1.0e6_wp, example='6.0e3, 4.0e3', &
       &   meaning='vertical loads that go with a corner, each in all and not per metre'), &
+      & property_type('load_x', is_list, unit='m', owners=one_sided, optional=.true., smallest=-1.0e3_wp, largest=1.0e3_wp, &
+      &   usual_least=-1.0e3_wp, example='3.0, 3.0', one_each=.true., meaning='place of each load along the facade, with axis_x'), &
       & property_type('inertia_mass', is_list, unit='kg/m', owners=carrying, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, example='600.0', usual_least=5.0_wp, not_with='leaves', because=on_one_leaf, &
       &   meaning='masses that the wall pushes and does not carry, per metre of wall'), &
@@ -149,6 +152,8 @@ module dondolo_wall_one_block_model
       & property_type('inertia_height', is_list, unit='m', owners=carrying, optional=.true., example='3.0', &
       &   one_each=.true., usual_most=60.0_wp, &
       &   meaning='height of each of them above the base'), &
+      & property_type('inertia_x', is_list, unit='m', owners=one_sided, optional=.true., smallest=-1.0e3_wp, largest=1.0e3_wp, &
+      &   usual_least=-1.0e3_wp, example='3.0', one_each=.true., meaning='place of each of them along the facade, with axis_x'), &
       & property_type('thrust', is_list, unit='N/m', owners=carrying, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, usual_least=10.0_wp, usual_most=1.0e5_wp, not_with='leaves', because=on_one_leaf, &
       &   if_more='is it per metre of wall?', example='1.0e3', meaning='horizontal forces outwards, per metre of wall'), &
@@ -164,6 +169,8 @@ module dondolo_wall_one_block_model
       & property_type('thrust_total', is_list, unit='N', owners=corner, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
       &   usual_least=10.0_wp, usual_most=1.0e5_wp, example='2.0e3', &
       &   meaning='horizontal forces outwards along the bisector of a corner, each in all and not per metre'), &
+      & property_type('thrust_x', is_list, unit='m', owners=one_sided, optional=.true., smallest=-1.0e3_wp, largest=1.0e3_wp, &
+      &   usual_least=-1.0e3_wp, example='3.0', one_each=.true., meaning='place of each thrust along the facade, with axis_x'), &
       & property_type('spring', is_list, unit='N/m2', owners=one_block, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, example='50.0e3', usual_least=500.0_wp, not_with='leaves', because=on_one_leaf, &
       &   meaning='stiffness of springs that pull and push, per metre of wall'), &
@@ -303,8 +310,11 @@ contains
       !> Takes what does not agree
       type(problems_type), intent(inout) :: problems
 
+      type(axis_type) :: axis
+
       self%two_sided = input%word('mechanism') == 'free_standing'
-      if (any(input%word('mechanism') == leaning)) self%contact = leans
+      axis = axis_of(input)
+      if (any(input%word('mechanism') == leaning) .and. .not. axis%is_inclined()) self%contact = leans
       call take_sections(problems, input)
    end subroutine prepare
 
@@ -373,6 +383,7 @@ contains
          call new_loaded_block(loaded, self%body%body, self%body%actions, gravity, self%two_sided, error)
          call move_alloc(loaded, mechanism)
          if (allocated(error)) return
+         mechanism%is_static = input%number('half_gable') > 0.0_wp
          if (self%two_sided) then
             impacts%impulse = two_sided_impulse(self%body)
          else
@@ -381,8 +392,9 @@ contains
                impacts%sorrentino = -one_sided_restitution(atan2(self%body%body%depth, self%body%body%height))
             end if
             impacts%impulse = -one_sided_impulse(self%body)
-            ! That a corner with wide wings would not bounce off at all is outside what the convention is for
-            impacts%may_be_plastic = .not. allocated(self%body%corner)
+            ! That a corner with wide wings, or a facade with long wedges, would not bounce off at all is outside what the
+            ! convention is for
+            impacts%may_be_plastic = .not. (allocated(self%body%corner) .or. self%has_wedges())
          end if
       end if
    end subroutine make_mechanism
@@ -417,6 +429,8 @@ contains
          else
             call lines%add('masonry: '//rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer '// &
                & 'face, '//rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
+            if (input%has('axis_x')) call lines%add('axis: heights are above the line through ('//point(1)//') and ('//point(2)// &
+               & ') m; share of gravity '//rounded(actions%gravity_share))
          end if
          do i = 1, size(self%body%wedges)
             associate (wedge => self%body%wedges(i))
@@ -426,11 +440,26 @@ contains
             end associate
          end do
          call describe_actions(actions, lines)
-         call lines%add('moments: weights hold with '//rounded(gravity*body%mass*(body%depth - actions%hinge) &
-            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m'// &
+         call lines%add('moments: weights hold with '//rounded(actions%gravity_share*(gravity*body%mass*(body%depth &
+            & - actions%hinge) + sum(actions%carried%weight*(actions%carried%depth - actions%hinge))))//' N m'// &
             & trim(actions%per_metre())//', thrusts push out with '// &
             & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m'//trim(actions%per_metre()))
       end associate
+
+   contains
+
+      !> A point of the axis
+      function point(number) result(text)
+         integer, intent(in) :: number
+         character(len=:), allocatable :: text
+
+         real(wp), allocatable :: x(:), z(:)
+
+         x = input%list('axis_x')
+         z = input%list('axis_z')
+         text = rounded(x(number))//', '//rounded(z(number))
+      end function point
+
    end subroutine describe
 
 end module dondolo_wall_one_block_model

@@ -106,8 +106,8 @@ contains
    end function default
 
    !> Speed after an impact / speed before it: the model's value, or the number given, times the factor. A coefficient of the
-   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3), but of a corner it is refused. Ranges of value
-   !> and factor are those of their properties (dondolo_wall_properties)
+   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3), but of a corner and of wedges it is refused.
+   !> Ranges of value and factor are those of their properties (dondolo_wall_properties)
    subroutine speed_ratio(self, models, ratio, error)
       !> What the user asks
       class(restitution_type), intent(in) :: self

@@ -4,6 +4,7 @@ module dondolo_wall_support_notes
    use dondolo_base_text, only : counted
    use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_wall, only : wall_type
+   use dondolo_wall_corner, only : corner_name
    implicit none
    private
 
@@ -12,7 +13,8 @@ module dondolo_wall_support_notes
    !> Codes
    character(len=*), parameter :: records_at_base = 'records_at_base', buildings_move_walls = 'buildings_move_walls', &
       & building_moves_both = 'building_moves_both', building_moves_base = 'building_moves_base', &
-      & one_floor_moves_both = 'one_floor_moves_both', ties_to_building = 'ties_to_building', ties_to_base = 'ties_to_base'
+      & one_floor_moves_both = 'one_floor_moves_both', ties_to_building = 'ties_to_building', ties_to_base = 'ties_to_base', &
+      & corner_one_direction = 'corner_one_direction'
 
    !> Walls by what moves them
    type :: supports_type
@@ -22,6 +24,8 @@ module dondolo_wall_support_notes
       integer :: leaning = 0, of_one_floor = 0
       !> With ties: of two supports, and of one
       integer :: tied_to_building = 0, tied_to_base = 0
+      !> Corners on buildings of several modes, all of which move them along their bisector
+      integer :: corners = 0
    contains
       !> Look at a wall
       procedure :: look
@@ -41,6 +45,7 @@ contains
       self%walls = self%walls + 1
       if (.not. allocated(wall%building)) return
       self%on_buildings = self%on_buildings + 1
+      if (wall%mechanism_name() == corner_name .and. size(wall%building%period) > 1) self%corners = self%corners + 1
       has_ties = size(wall%input%list('tie_height')) > 0
       if (wall%building%share > 0.0_wp) then
          self%leaning = self%leaning + 1
@@ -77,6 +82,9 @@ contains
          & trim(walls(self%tied_to_building))//' are anchored to the building, and move with it')
       if (self%tied_to_base > 0) call notes%add(counted_walls(ties_to_base, self%tied_to_base), 'the ties of '// &
          & trim(walls(self%tied_to_base))//' are anchored to what the base of the wall stands on')
+      if (self%corners > 0) call notes%add(counted_walls(corner_one_direction, self%corners), 'all modes of the building move '// &
+         & trim(walls(self%corners))//' along the bisector of the corner; modes of its two directions would move one '// &
+         & 'component each')
 
    contains
 

@@ -7,6 +7,7 @@ module dondolo_wall_body
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_unit_hint, only : unit_question
    use dondolo_wall_anchor, only : anchor_type
+   use dondolo_wall_axis, only : axis_of, axis_type, take_heights
    use dondolo_wall_carried, only : actions_type, carried_type, spring_type, thrust_type
    use dondolo_wall_corner, only : body_of_corner, check_corner_hinge, corner_reach, corner_type, read_corner
    use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
@@ -57,7 +58,8 @@ contains
       if (top_of_elevation(input) > 0.0_wp) then
          call follow('height', top_of_elevation(input), 'that of the highest corner')
       else if (input%has('elevation_z')) then
-         call problems%note('elevation_z: no masonry is above the base, at the height 0', out_of_range, 'elevation_z')
+         call problems%note('elevation_z: no masonry is above the '//trim(merge('axis                 ', 'base, at the height 0', &
+            & input%has('axis_x'))), out_of_range, 'elevation_z')
          ! That of all of it, so that no height is asked for
          if (.not. input%has('height')) call input%set('height', maxval(input%list('elevation_z')) &
             & - minval(input%list('elevation_z')))
@@ -99,6 +101,7 @@ contains
       !> The wall; undefined if something is wrong
       type(wall_body_type), intent(out) :: wall
 
+      type(axis_type) :: axis
       integer :: before, i
 
       before = problems%count
@@ -111,6 +114,8 @@ contains
       if (problems%count > before) return
       wall%body = body_of_sections(wall%sections, input%number('density'))
       if (allocated(wall%facade)) wall%body = wall%facade
+      axis = axis_of(input)
+      wall%actions%gravity_share = axis%cosine
       call read_mass(input, problems, wall%body)
       if (problems%count > before) return
       do i = 1, size(wall%wedges)
@@ -283,11 +288,11 @@ contains
 
       load = input%list(name)
       call take(input, problems, 'load_depth', name, depth)
-      call take(input, problems, 'load_height', name, height)
+      call take_heights(input, problems, 'load', name, height)
       call take(input, problems, 'load_seat', name, seat, huge(1.0_wp))
       mass = input%list('inertia_mass')
       call take(input, problems, 'inertia_depth', 'inertia_mass', mass_depth)
-      call take(input, problems, 'inertia_height', 'inertia_mass', mass_height)
+      call take_heights(input, problems, 'inertia', 'inertia_mass', mass_height)
       words = number_of_words(input%word('load_inertia'))
       by_parts = input%has('load_lifted') .or. input%has('load_pushed')
       if (by_parts) then
@@ -344,7 +349,7 @@ contains
       real(wp) :: faces(2)
       integer :: i
 
-      call take(input, problems, 'thrust_height', name, height)
+      call take_heights(input, problems, 'thrust', name, height)
       call take(input, problems, 'thrust_depth', name, depth, -huge(1.0_wp))
       call take(input, problems, 'thrust_decay', name, decay, huge(1.0_wp))
       do i = 1, size(depth)
@@ -472,7 +477,10 @@ contains
          faces = faces_at(wall%sections, height)
          if (allocated(wall%wedges)) faces(2) = faces(2) + wedge_reach(wall%wedges, height)
          if (allocated(wall%corner) .and. faces(1) <= faces(2)) faces(2) = corner_reach(wall%corner, height)
-         if (faces(1) > faces(2)) then
+         if (faces(1) > faces(2) .and. input%has('axis_x')) then
+            call problems%note(what//' '//to_text(number)//': lies '//rounded(height)//' m above the axis, must lie between 0 '// &
+               & 'and '//rounded(tall)//' m, the panel', out_of_range, what//'_height')
+         else if (faces(1) > faces(2)) then
             call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
                & rounded(tall)//' m, the wall'//trim(unit_question('m', height, 0.0_wp, tall, 0.5_wp*tall)), out_of_range, &
                & what//trim(merge('_top   ', '_height', what == 'distributed_spring')))

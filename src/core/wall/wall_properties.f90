@@ -8,6 +8,7 @@ module dondolo_wall_properties
    use dondolo_base_property, only : blank, choices_length, find_name, is_integer, is_text, is_words, most_choices, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_building_input, only : building_rows
+   use dondolo_wall_axis, only : axis_rows
    use dondolo_wall_chain_model, only : chain_rows
    use dondolo_wall_corner, only : corner_name, corner_rows
    use dondolo_wall_elevation, only : elevation_rows
@@ -40,7 +41,8 @@ module dondolo_wall_properties
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
-      &   example='3.0', meaning='height of the wall', instead='section_height', usual_most=60.0_wp), &
+      &   example='3.0', meaning='height of the wall', instead='section_height, elevation_z', &
+      &   usual_most=60.0_wp), &
       & property_type('thickness', unit='m', owners=of_blocks, required=.true., positive=.true., smallest=1.0e-3_wp, &
       &   largest=1.0e3_wp, example='0.25', meaning='thickness of the wall', instead='section_thickness', usual_most=3.0_wp), &
       & property_type('density', unit='kg/m3', owners=of_blocks, default=1800.0_wp, positive=.true., &
@@ -85,7 +87,7 @@ module dondolo_wall_properties
 
    !> The rows of the wall itself, in the order in which a user thinks of them
    type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, wedge_rows, elevation_rows, &
-      & corner_rows, hinge_rows, &
+      & axis_rows, corner_rows, hinge_rows, &
       & one_block_action_rows, free_rows, two_block_hinge_rows, two_block_joint_rows, impact_rows, two_block_load_rows, &
       & tabulated_rows, chain_rows]
 

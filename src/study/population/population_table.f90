@@ -9,7 +9,7 @@ module dondolo_population_table
    use dondolo_base_odd_character, only : odd_character
    use dondolo_base_plain, only : name_problem, shown
    use dondolo_base_property, only : choices_length, find_item, find_property, is_list, is_many, is_text, is_words, item_name, &
-      & property_type
+      & number_of_words, property_type, word_of
    use dondolo_base_settings, only : settings_type
    use dondolo_base_spelling, only : meant, say_allowed
    use dondolo_base_text, only : lower
@@ -136,7 +136,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(problems_type) :: problems
-      integer :: i
+      integer :: i, k
       logical :: has_terms
 
       has_terms = self%wall_columns(find_property(wall_properties, 'table')) > 0 &
@@ -148,9 +148,8 @@ contains
             if (.not. property%required .or. self%wall_columns(i) > 0) cycle
             ! A wall whose terms are given has no blocks: what these must have is asked of their rows.
             if (has_terms .and. len_trim(property%owners(1)) > 0) cycle
-            if (len_trim(property%instead) > 0) then
-               if (any(self%items(1, :) == find_property(wall_properties, trim(property%instead)))) cycle
-            end if
+            if (any([(any(self%items(1, :) == find_property(wall_properties, trim(word_of(property%instead, k)))), k=1, &
+               & number_of_words(property%instead))])) cycle
             call raise_input(error, file//': column '''//trim(property%name)//''': must be given', not_given, trim(property%name), &
                & file)
             call problems%take(error)

@@ -118,9 +118,9 @@ contains
       if (.not. allocated(error)) call load_text(file, text, error, longest_record_file)
       if (allocated(error)) return
       is_column = .false.
-      if (.not. is_given .and. len(given%columns) == 0) call read_single_column(text, samples, is_column, dt)
+      if ((.not. is_given .or. chosen%is_plain) .and. len(given%columns) == 0) call read_single_column(text, samples, is_column, dt)
       if (is_column) then
-         call find_format('columns', chosen, error)
+         if (.not. is_given) call find_format('columns', chosen, error)
       else
          call find_lines(text, error, has_latin=.true.)
          if (allocated(error)) return
@@ -128,7 +128,7 @@ contains
          call add_place(error, file)
          if (.not. allocated(error)) call read_as(chosen, text, given, samples, error)
       end if
-      if (chosen%name == 'columns' .and. .not. allocated(error)) then
+      if (chosen%is_plain .and. .not. allocated(error)) then
          do i = 1, size(samples%channels)
             if (.not. (allocated(error) .or. allocated(samples%channels(i)%refusal))) call check_channel(file, &
                & samples%channels(i), error)

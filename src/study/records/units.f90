@@ -4,20 +4,17 @@ module dondolo_records_units
    use dondolo_base_kinds, only : wp
    use dondolo_base_odd_character, only : odd_character
    use dondolo_base_text, only : join, lower, replaced
+   use dondolo_base_unit_hint, only : standard_gravity
    implicit none
    private
 
    public :: unit_factor
 
-   !> The unit g of files [m/s2]: standard gravity, by definition of the unit (3rd CGPM, 1901). The gravity in which walls
-   !> stand is another number (dondolo_wall)
-   real(wp), parameter :: gravity_of_files = 9.80665_wp
-
    !> Units that are known
    character(len=*), parameter :: known(5) = [character(len=5) :: 'm/s2', 'cm/s2', 'gal', 'mm/s2', 'g']
 
    !> Their sizes [m/s2]
-   real(wp), parameter :: factors(5) = [1.0_wp, 0.01_wp, 0.01_wp, 0.001_wp, gravity_of_files]
+   real(wp), parameter :: factors(5) = [1.0_wp, 0.01_wp, 0.01_wp, 0.001_wp, standard_gravity]
 
 contains
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.exchange.case_text import case_text
+from dondolo.records.synthetic import SYNTHETIC
 from dondolo.reporting.blocks import Annexes, Block, CaptionedTable, Heading, Listing
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, Numeral, number, whole
@@ -100,6 +101,9 @@ def _records(document: Document, one: RunFile, factors: Mapping[str, tuple[float
         columns[document.text(_("to"))] = [number(high) for _low, high in ends]
     caption = document.text(_("Records, and the range of their factors of scale."))
     blocks: list[Block] = [CaptionedTable(Table.of(columns, list(heads.values())), caption)]
+    if synthetic := [each for each in one.records if each.get("format") == SYNTHETIC]:
+        blocks.append(document.say(_("{some} of {all} records are synthetic: computed, not recorded."),
+                                   some=str(len(synthetic)), all=str(len(one.records))))  # fmt: skip
     if missing := [heads[name] for name, values in stated.items() if not any(values)]:
         blocks.append(document.say(_("Not given for any record: {facts}."), facts=", ".join(missing)))
     return blocks

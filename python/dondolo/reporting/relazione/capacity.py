@@ -57,14 +57,20 @@ def end_of(document: Document, one: Subject) -> list[Block]:
     numbers: list[Any] = [shown(sums.weights, moment), " - ", shown(sums.thrusts, moment)]
     total, first, second = _sum("P", "z"), shown(sums.first, moment), shown(sums.second, one.unit("N m2/m"))
     lowered, lowered_numbers = _lowered(sums, with_ties=False)
+    words = _(
+        "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
+        " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}:"
+    )
+    if parts_of(one.wall, "ties"):
+        words = _(
+            "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
+            " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
+            " hold no longer:"
+        )
     return [
         *_set_back(one, sums),
         document.say(
-            _(
-                "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
-                " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
-                " hold no longer:"
-            ),
+            words,
             theta=_THETA,
             arm=(symbol_of("e"), " = ", symbol_of("d"), " - ", symbol_of("u")),
             hinge=symbol_of("u"),
@@ -190,7 +196,13 @@ def _lowered(sums: Turning, *, with_ties: bool) -> tuple[tuple[Any, ...], tuple[
     moment = UNITS["N m/m"]
     symbols: list[Any] = [*_sum("P", "z")]
     numbers: list[Any] = [shown(sums.first, moment)]
-    terms = [(" - ", "Q", "z", sums.pushed), (" + ", "H", "e", sums.thrust_arms)]
+    if sums.pushed:
+        symbols += [" - ", *_sum("Q", "z")]
+        numbers += _signed(" - ", sums.pushed)
+    if sums.share < 1.0:
+        symbols = ["(", *symbols, ") cos ", Symbol("β")]
+        numbers = ["(", *numbers, ") · ", shown(sums.share, figures=_COSINE)]
+    terms = [(" + ", "H", "e", sums.thrust_arms)]
     terms += [(" - ", "T", "e", sums.tie_arms)] if with_ties else []
     for sign, force, lever, value in terms:
         if value:

@@ -91,7 +91,7 @@ def scheme(document: Document, one: Subject, name: str) -> list[Block]:
         document.text(_("The chain at rest with its loads, and displaced.")),
     )
     tables = [_bodies(document, one, name), _joints(document, one.wall, name), *_actions(document, one.wall, name)]
-    return [picture, *tables, *_sides(document, one.wall)]
+    return [picture, *tables, *_plane(document, one.wall), *_sides(document, one.wall)]
 
 
 def _bodies(document: Document, one: Subject, name: str) -> CaptionedTable:
@@ -167,6 +167,21 @@ def _actions(document: Document, wall: Chain, name: str) -> list[CaptionedTable]
     }
     words = [document.text(word) for word in (_("on"), _("kind"))]
     return [CaptionedTable(Table.of(columns, words), document.titled(document.text(_("Actions on the chain")), name))]
+
+
+def _plane(document: Document, wall: Chain) -> list[Block]:
+    """What of gravity acts in the plane of the motion, where it is not all of it."""
+    share = 1.0 if wall.gravity_share is None else wall.gravity_share
+    if share == 0.0:
+        words = _(
+            "The plane of the motion is the plan: heights are places along the wall. Gravity acts normal to it, so that"
+            " weights neither hold the bodies nor push them, and stand only in the sums of what the earthquake moves."
+        )
+        return [document.say(words)]
+    if share < 1.0:
+        words = _("In the plane of the motion acts the part {share} of gravity.")
+        return [document.say(words, share=number(share, 5))]
+    return []
 
 
 def _sides(document: Document, wall: Chain) -> list[Block]:

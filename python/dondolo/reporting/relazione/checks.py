@@ -16,6 +16,7 @@ from dondolo.reporting.relazione.capacity import capacity_of, displacement_of, e
 from dondolo.reporting.relazione.chains import scheme
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_capacity, draw_floor, draw_table, draw_wall
+from dondolo.reporting.relazione.elevations import elevation_of
 from dondolo.reporting.relazione.floors import building_in, demand_of, peak_of
 from dondolo.reporting.relazione.formulas import COHERENT, FIGURES, formulas_of
 from dondolo.reporting.relazione.subjects import Subject
@@ -38,7 +39,8 @@ from dondolo.walls.parts import parts_of
 
 # Displacements of the sheet, which are small
 _LENGTHS = (
-    "d_0", "tie_fracture", "displacement", "demand", "mean_displacement", "yield_displacement", "bar", "plate_width",
+    "d_0", "halves_overlap",
+    "tie_fracture", "displacement", "demand", "mean_displacement", "yield_displacement", "bar", "plate_width",
     "plate_height", "plate_diameter", "plate_thickness", "plate_needed", "masonry_thickness", "edge_distance",
 )  # fmt: skip
 # What a limit state without a hazard of its own is not to be taken for
@@ -91,6 +93,7 @@ def mechanism(document: Document) -> list[Block]:
                 document.text(_("The wall at rest with its loads, and displaced about its hinge.")),
             )
         )
+        blocks += elevation_of(document, one, name)
     return [*blocks, *_reactions(document)]
 
 
@@ -334,6 +337,13 @@ def _steps(document: Document, one: Subject, row: SheetRow) -> list[Block]:
             symbol = "ζ_E"
         elif row.quantity == "spectral_demand":
             blocks += demand_of(document, one, row)
+    elif row.quantity == "governing_t0":
+        periods = [one.check.value("mechanism", "", name) for name in ("shortest_t0", "longest_t0")]
+        words = _("Of all periods from {shortest} to {longest}, the demand is greatest at {symbol} = {period}.")
+        shortest, longest, period = (number(value, 4, " s") for value in (*periods, row.value))
+        blocks.append(
+            document.say(words, shortest=shortest, longest=longest, symbol=symbol_of("T_0,gov"), period=period)
+        )
     elif (row.method, row.quantity) == ("linear", "floor_pga"):
         blocks += peak_of(document, one, row)
     if row.numbers and row.quantity not in _AGAIN:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from dondolo._fortran.checks import capacity_curve
 from dondolo.checks.plots import draw_safety
 from dondolo.figures import style
+from dondolo.figures.layout import apart
 from dondolo.figures.options import Options
 from dondolo.records.building import Building
 from dondolo.records.codes import LimitState
@@ -37,6 +38,8 @@ _CENTIMETRES = 100.0
 _BEYOND: dict[str, Any] = {"color": _MIDDLE, "linestyle": (0, (2, 2)), "linewidth": 0.9}
 # Sizes of the words in the scheme of the mechanism, which pages show at two thirds of its size
 _WORDS, _TITLES = 9.0, 10.5
+# Height of a line of words in that scheme / height of the wall
+_ROW = 0.055
 # Least rotation that is drawn [rad]
 _SEEN = 0.08
 
@@ -159,17 +162,17 @@ _PARTS_OF = {"load": "loads", "mass": "inertial_masses", "thrust": "thrusts", "t
 
 
 def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
-    """Weights, thrusts and ties where they act."""
+    """Weights, thrusts and ties where they act; words beside the wall keep clear of each other."""
     wall = one.checked
     assert isinstance(wall, MasonryWall)
     right = width_of(wall)
+    labels: list[tuple[float, str]] = []
     for item in one.check.items:
         if item.item in _BLOCKS and isinstance(wall, TwoBlockWall):
             name, share = _BLOCKS[item.item]
             z = wall.height * (0.5 * wall.hinge + share * 0.5)
             ax.plot(0.5 * right, z, marker="+", markersize=8, color=_DARK)
-            ax.annotate(f"{name} = {_kilo(document, item.force)}", (right, z), (6, 0), textcoords="offset points",
-                        fontsize=_WORDS, va="center")  # fmt: skip
+            labels.append((z, f"{name} = {_kilo(document, item.force)}"))
         if item.item == "load on top" and isinstance(wall, TwoBlockWall):
             x = 0.5 * right + (wall.eccentricity or 0.0)
             ax.annotate("", (x, wall.height), (x, 1.09 * wall.height), arrowprops=_ARROW)
@@ -195,15 +198,16 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
             ax.plot(
                 [right + 0.02, right + 0.02], [z - 0.03 * wall.height, z + 0.03 * wall.height], color=_DARK, linewidth=3
             )
-            ax.annotate(words, (right + 0.06, z), (4, -8), textcoords="offset points", fontsize=_WORDS)
+            labels.append((z - 0.02 * wall.height, words))
         elif word in ("section", "wedge", "corner", "wing"):
             ax.plot(x, z, marker="+", markersize=8, color=_DARK)
-            # Wedges are about as high as each other
-            lower = 11 * (int(count) - 1) - 5 if word == "wedge" else 0
-            ax.annotate(words, (right, z), (6, -lower), textcoords="offset points", fontsize=_WORDS, va="center")
+            labels.append((z, words))
         else:
             ax.annotate("", (x, z), (x, z + 0.09 * wall.height), arrowprops=_ARROW)
-            ax.annotate(words, (right, z + 0.05 * wall.height), (6, 0), textcoords="offset points", fontsize=_WORDS)
+            labels.append((z + 0.06 * wall.height, words))
+    labels.sort()
+    for z, (_level, words) in zip(apart([at for at, _words in labels], _ROW * wall.height), labels, strict=True):
+        ax.annotate(words, (right + 0.06, z), (4, 0), textcoords="offset points", fontsize=_WORDS, va="center")
     ax.annotate(one.unit("N/m").name, (right + 0.9 * reach, -0.11 * wall.height), ha="center", fontsize=_WORDS)
 
 
@@ -260,7 +264,10 @@ def _without(one: Subject, name: str) -> MasonryWall:
     left_out = ties_left_out(one, name)
     ties = [tie for place, tie in enumerate(parts_of(one.wall, "ties")) if f"tie {place + 1}" not in left_out]
     assert isinstance(one.wall, MasonryWall)
-    wall = replace(one.wall, ties=ties)  # type: ignore[call-arg]
+    has_plates = any(tie.plate_width is not None or tie.plate_diameter is not None for tie in ties)
+    # Without plates the strengths of the masonry behind them are refused.
+    masonry = [field.name for field in fields(one.wall) if field.name.startswith("masonry_") and not has_plates]
+    wall = replace(one.wall, ties=ties, **dict.fromkeys(masonry))  # type: ignore[call-arg]
     hinges = [row.value for row in one.check.rows if (row.method, row.item, row.quantity) == ("untied", name, "hinge")]
     return replace(wall, hinge=hinges[0]) if hinges else wall  # type: ignore[call-arg]
 

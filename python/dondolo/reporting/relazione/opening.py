@@ -17,6 +17,7 @@ from dondolo.reporting.numerals import NONE, number
 from dondolo.reporting.relazione.checks import governed, method_name, required
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_spectra
+from dondolo.reporting.relazione.elevations import panels
 from dondolo.reporting.relazione.outcome import notes_of, runs_of
 from dondolo.reporting.relazione.site_grid import coordinates, grid
 from dondolo.reporting.relazione.subjects import Subject
@@ -377,6 +378,7 @@ def modelling(document: Document) -> list[Block]:
             " and its inertia are those of this figure above the hinge, per metre of the length of the facade."
         )
         blocks.append(document.say(words))
+    blocks += panels(document)
     if any(isinstance(wall, Corner) for wall in walls):
         words = _(
             "A corner overturns along the bisector of its two walls: its square base carries a wing of each wall, above"

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from dondolo._fortran.checks import CalculationItem
 from dondolo._fortran.walls import WALL_ABSENT
 from dondolo.checks.ntc import CodeCheck
+from dondolo.checks.side_by_side import ties_not_counted
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.walls.parts import Tie, parts_of
 
@@ -116,8 +117,7 @@ def taken_of(one: Subject, state: str) -> str:
 
 def without_of(one: Subject, state: str) -> str:
     """The ties that the ratio of a nonlinear check does not count, such as 'tie 1'; '' if it counts all."""
-    less, tied = (one.check._row("nonlinear", state, name) for name in ("less_zeta", "tied_zeta"))
-    return less.item if less is not None and tied is not None and less.value > tied.value else ""
+    return ties_not_counted(one.check, state)
 
 
 def ties_left_out(one: Subject, name: str) -> frozenset[str]:
@@ -145,6 +145,8 @@ class Turning(NamedTuple):
         ΣH e and ΣT e.
     hinge : float
         Depth u of the hinge.
+    share : float
+        Share of gravity in the plane of the motion; 1 but about an inclined axis.
     """
 
     weights: float
@@ -157,6 +159,7 @@ class Turning(NamedTuple):
     thrust_arms: float
     tie_arms: float
     hinge: float
+    share: float
 
     def multiplier(self, sine: float, *, with_ties: bool) -> float:
         """Multiplier at a rotation."""
@@ -168,7 +171,7 @@ class Turning(NamedTuple):
     @property
     def lowered(self) -> float:
         """What loses height for a unit of rotation."""
-        return self.first - self.pushed + self.thrust_arms
+        return self.share * (self.first - self.pushed) + self.thrust_arms
 
 
 def turning_of(items: tuple[CalculationItem, ...], broken: frozenset[str] = frozenset()) -> Turning:
@@ -177,6 +180,8 @@ def turning_of(items: tuple[CalculationItem, ...], broken: frozenset[str] = froz
     ties = [one for one in items if is_held(one) and one.item not in broken]
     thrusts = [one for one in items if not math.isnan(one.overturning)]
     hinge = weights[0].depth - weights[0].arm
+    # Of weights about an inclined axis a part holds; results keep a dozen digits
+    share = round(weights[0].stabilising / (weights[0].force * weights[0].arm), 11)
     return Turning(
         weights=math.fsum(one.stabilising for one in weights if not math.isnan(one.stabilising)),
         ties=math.fsum(one.stabilising for one in ties),
@@ -188,4 +193,5 @@ def turning_of(items: tuple[CalculationItem, ...], broken: frozenset[str] = froz
         thrust_arms=math.fsum(one.force * (one.depth - hinge) for one in thrusts),
         tie_arms=math.fsum(one.force * (one.depth - hinge) for one in ties),
         hinge=hinge,
+        share=share,
     )

@@ -96,6 +96,7 @@ MEANINGS = {
     "mass_ratio": "frazione di massa partecipante",
     "a_0": "accelerazione spettrale di attivazione",
     "d_0": "spostamento per cui il moltiplicatore si annulla",
+    "halves_overlap": "sovrapposizione delle due metà di un timpano per tale spostamento, in cui si incastrano",
     "hinge": "quota relativa della cerniera",
     "lowest_hinge": "quota relativa più bassa tra cui si cerca la cerniera più debole",
     "highest_hinge": "quota relativa più alta tra cui si cerca la cerniera più debole",
@@ -180,7 +181,7 @@ MECHANISMS = {
     "two_block": "flessione verticale",
     "corner": "ribaltamento del cantonale",
     "tabulated": "cinematismo tabellato",
-    "chain": "catena di corpi rigidi",
+    "chain": "catena cinematica di corpi rigidi",
 }
 
 _NO_CURVE = "nessuna curva di fragilità per la parete {wall}: "
@@ -196,6 +197,8 @@ WARNINGS = {
     "overlap_above_thickness": "parete {wall}: ammorsamento maggiore dello spessore della parete ortogonale",
     "mass_beside_size": "parete {wall}: la massa divisa per altezza e spessore è {density} kg/m³, limite usuale"
     " {limit}: unità di misura da controllare",
+    "restitution_of_solid": "parete {wall}: il coefficiente di restituzione è quello di un blocco pieno, benché la"
+    " frazione di muratura cambi tra i tratti; quello dell'urto con le masse al loro posto è {impulse}",
     "levels_above_usual": "livelli fino a {largest} di {im}, oltre il limite usuale {limit}: unità di misura da"
     " controllare",
     "record_without_motion": "accelerogramma {record}: accelerazione di picco nulla",
@@ -286,10 +289,13 @@ WARNINGS = {
     " che si aprono a {opening_edp}",
     "serviceability": "classe d'uso IV: il giudizio si fonda anche sullo SLD (NTC 8.3, che ne ammette livelli ridotti);"
     " per lo SLO non c'è una formula per i meccanismi locali",
+    "halves_jam": "le due metà del timpano attraversano il piano del suo asse, e per d_0* si sovrapporrebbero di"
+    " {overlap_m} m: si incastrano, per cui il moltiplicatore è a favore di sicurezza, e gli spostamenti con ciò che ne"
+    " segue non sono provati",
     "slides_first": "{item}: scorre prima di ruotare, perché con un attrito {friction} non ha quello necessario"
     " all'attivazione, {friction_needed}, per il moltiplicatore {alpha_0}",
-    "sliding_unknown": "le forze alle cerniere di una tabella o di una catena cinematica non sono note: non si"
-    " verifica se scorrono prima di ruotare",
+    "sliding_unknown": "le forze alle cerniere di una tabella, di una catena cinematica o di un asse inclinato non"
+    " sono note: non si verifica se scorrono prima di ruotare",
     "friction_not_given": "{item}: per ruotare e non scorrere serve all'attivazione un attrito {friction_needed}; non"
     " si verifica se c'è, perché l'attrito non è assegnato",
     "perhaps_free": "la parete comincia sopra il suolo o finisce sopra l'edificio, e non la trattengono né catene né"

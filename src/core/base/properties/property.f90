@@ -72,8 +72,8 @@ module dondolo_base_property
       character(len=choices_length) :: owners(most_choices) = ''
       !> What a text that must be given names, for messages
       character(len=40) :: names = ''
-      !> What can take its place, where one of both must be given
-      character(len=24) :: instead = ''
+      !> What can take its place, where one of them must be given, with a comma between two
+      character(len=40) :: instead = ''
       !> What a template shows, where it is not the default
       character(len=40) :: example = ''
       !> Column in tables of results, where it is not the name and the unit

@@ -7,7 +7,7 @@ module dondolo_base_unit_hint
    implicit none
    private
 
-   public :: unit_hint, unit_question, hint_length
+   public :: unit_hint, unit_question, hint_length, standard_gravity
 
    !> Length of a question
    integer, parameter :: hint_length = 48
@@ -21,7 +21,9 @@ module dondolo_base_unit_hint
       logical :: is_inverse = .false.
    end type other_unit_type
 
-   real(wp), parameter :: g = 9.80665_wp
+   !> The unit g [m/s2]: standard gravity, by definition of the unit (3rd CGPM, 1901). The gravity in which walls stand is another
+   !> number (dondolo_wall)
+   real(wp), parameter :: standard_gravity = 9.80665_wp
 
    !> Other units. Of densities and of gravity the rows of their properties ask
    type(other_unit_type), parameter :: others(*) = [ &
@@ -42,8 +44,8 @@ module dondolo_base_unit_hint
       & other_unit_type('kg m2/m', 't m2/m', 1.0e3_wp), &
       & other_unit_type('s', 'milliseconds', 1.0e-3_wp), &
       & other_unit_type('s', 'Hz, a frequency', 1.0_wp, is_inverse=.true.), &
-      & other_unit_type('g', 'm/s2', 1.0_wp/g), &
-      & other_unit_type('g', 'cm/s2', 0.01_wp/g), &
+      & other_unit_type('g', 'm/s2', 1.0_wp/standard_gravity), &
+      & other_unit_type('g', 'cm/s2', 0.01_wp/standard_gravity), &
       & other_unit_type('g', 'per cent of g', 0.01_wp), &
       & other_unit_type('', 'per cent', 0.01_wp)]
 

@@ -19,7 +19,7 @@ module dondolo_case_uncertainty_group
    public :: uncertainty_properties
 
    !> Variables of the group; behind the first two properties of walls, by their names
-   type(property_type), target, protected :: uncertainty_properties(19) = [ &
+   type(property_type), target, protected :: uncertainty_properties(20) = [ &
       & property_type('variants', is_integer, default=200.0_wp, smallest=8.0_wp, largest=10000.0_wp, &
       &   meaning='walls of the sample; of k properties at least 2 + 6 k + k (k - 1): 8 of one, 38 of four'), &
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
@@ -32,6 +32,8 @@ module dondolo_case_uncertainty_group
       &   meaning='its distribution, m'), &
       & property_type('compressive_strength', is_text, optional=.true., example='lognormal(2.0e6, 0.3)', &
       &   meaning='its distribution, Pa'), &
+      & property_type('elastic_period', is_text, optional=.true., example='lognormal(0.107, 0.3, 0.04, 0.25)', &
+      &   meaning='distribution of the period of a strip that bends before it rocks, s'), &
       & property_type('density', is_text, optional=.true., example='normal(1800.0, 90.0)', &
       &   meaning='its distribution, kg/m3'), &
       & property_type('height', is_text, optional=.true., example='uniform(2.9, 3.1)', meaning='its distribution, m'), &

@@ -15,7 +15,7 @@ module dondolo_case_check_rows
    private
 
    public :: check_wall, count_verdict, put_check, put_item, put_sheet_row, verdicts_type
-   public :: check_methods, check_states, shown_verdicts
+   public :: check_methods, check_states, shown_verdicts, verdict_type
 
    !> The kinematic checks: method and limit state
    character(len=*), parameter :: check_methods(4) = [character(len=9) :: 'linear', 'linear', 'nonlinear', 'nonlinear'], &
@@ -31,6 +31,8 @@ module dondolo_case_check_rows
    type :: verdict_type
       !> Name of the wall
       character(len=:), allocatable :: name
+      !> Its mechanism
+      character(len=:), allocatable :: mechanism
       !> Multiplier alpha_0
       real(wp) :: multiplier = 0.0_wp
       !> Capacity / demand of each check
@@ -202,6 +204,7 @@ contains
       if (verdicts%checked > shown_verdicts) return
       associate (verdict => verdicts%first(verdicts%checked))
          verdict%name = row%wall%name()
+         verdict%mechanism = row%wall%mechanism_name()
          verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
          verdict%ratio = ratio
          verdict%is_applicable = is_applicable
@@ -233,19 +236,25 @@ contains
    end subroutine put_sheet_row
 
    !> An item of the calculation
-   subroutine put_item(table, item)
+   subroutine put_item(table, item, is_whole)
       class(table_type), intent(inout) :: table
       type(item_type), intent(in) :: item
+      !> Are forces and moments those of a whole body, and not per metre of wall?
+      logical, intent(in) :: is_whole
 
+      character(len=:), allocatable :: per
+
+      per = '_m'
+      if (is_whole) per = ''
       call table%put('item', trim(item%name))
-      call table%put('force_n_m', item%force, is_given(item%force))
+      call table%put('force_n'//per, item%force, is_given(item%force))
       call table%put('depth_m', item%depth, is_given(item%depth))
       call table%put('arm_m', item%arm, is_given(item%arm))
       call table%put('lever_m', item%lever, is_given(item%lever))
-      call table%put('stabilising_nm_m', item%stabilising, is_given(item%stabilising))
-      call table%put('overturning_nm_m', item%overturning, is_given(item%overturning))
-      call table%put('force_lever_nm_m', item%first, is_given(item%first))
-      call table%put('force_lever2_nm2_m', item%second, is_given(item%second))
+      call table%put('stabilising_nm'//per, item%stabilising, is_given(item%stabilising))
+      call table%put('overturning_nm'//per, item%overturning, is_given(item%overturning))
+      call table%put('force_lever_nm'//per, item%first, is_given(item%first))
+      call table%put('force_lever2_nm2'//per, item%second, is_given(item%second))
    end subroutine put_item
 
 end module dondolo_case_check_rows

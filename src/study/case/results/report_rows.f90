@@ -6,7 +6,7 @@ module dondolo_case_report_rows
    use dondolo_case_table, only : table_type
    use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_fragility_clustered, only : parameter_intervals
-   use dondolo_motion_certified, only : certified_type, status_names
+   use dondolo_motion_certified, only : certified_type, not_known, status_names
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : union_type
@@ -323,7 +323,8 @@ contains
       call table%put('time_of_peak_s', response%time_of_peak)
    end subroutine put_history
 
-   !> How a history is certified; an empty cell where an interrupted run has left its doubt
+   !> How a history is certified; an empty cell where an interrupted run has left its doubt, or where it is not known how the record
+   !> is printed
    subroutine put_certified(table, certified)
       class(table_type), intent(inout) :: table
       type(certified_type), intent(in) :: certified
@@ -335,6 +336,11 @@ contains
       end if
       call table%put('edp_lowest', certified%lowest)
       call table%put('edp_highest', certified%highest)
+      if (certified%rounded > not_known) then
+         call table%put('edp_rounded', certified%rounded)
+      else
+         call table%put('edp_rounded', '')
+      end if
    end subroutine put_certified
 
    !> The rows of a time history

@@ -337,7 +337,7 @@ contains
       if (allocated(error)) return
       call list_items(checked, items)
       do i = 1, size(items)
-         call put_item(table, items(i))
+         call put_item(table, items(i), checked%model%is_whole)
          call table%end_row()
       end do
    end subroutine put_calculation

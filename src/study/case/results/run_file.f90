@@ -378,6 +378,8 @@ contains
          call json%put(trim(status_names(i)), count(results%row%certified%status == i))
       end do
       associate (bounds => results%row%bounds)
+         call json%put('rounded', bounds(size(bounds))%rounded)
+         call json%put('changed', bounds(size(bounds))%changed)
          call json%put('theta_lowest', bounds(size(bounds))%theta_lowest)
          call json%put('theta_highest', bounds(size(bounds))%theta_highest)
          call json%open_array('states')
@@ -388,6 +390,7 @@ contains
             call json%put('theta_highest', bounds(i)%theta_highest)
             call json%put('fewest', real(bounds(i)%fewest, wp))
             call json%put('most', real(bounds(i)%most, wp))
+            call json%put('changed', bounds(i)%changed)
             call json%close_object()
          end do
          call json%close_array()

@@ -24,7 +24,8 @@ module dondolo_case_wall_warnings
       & height_below_thickness = 'height_below_thickness', load_place_without_load = 'load_place_without_load', &
       & overlap_above_thickness = 'overlap_above_thickness', bending_neglected = 'bending_neglected', &
       & opening_above_usual = 'opening_above_usual', lifted_while_closed = 'lifted_while_closed', &
-      & floor_without_period = 'floor_without_period', mass_beside_size = 'mass_beside_size'
+      & floor_without_period = 'floor_without_period', mass_beside_size = 'mass_beside_size', &
+      & restitution_of_solid = 'restitution_of_solid'
 
    !> Opening of joints / capacity above which a strip is bent rather than rocking
    real(wp), parameter :: usual_opening = 0.1_wp
@@ -37,8 +38,9 @@ module dondolo_case_wall_warnings
    !> Places after the properties: the gravity of a wall, and values that do not go together
    integer, parameter :: gravity = size(wall_properties) + 1, pairs = size(wall_properties) + 2
    !> How many pairs of values are compared, strips that bend among them: without a period; with one those that open late, that
-   !> lift a mass, and that are on a building of one mode. Last: a mass beside the size of the wall
-   integer, parameter :: n_pairs = 8, strips = 4, late = 5, lifting = 6, alone = 7, heavy = 8
+   !> lift a mass, and that are on a building of one mode. Last: a mass beside the size of the wall, and storeys with different
+   !> shares of masonry beside the restitution of a solid block
+   integer, parameter :: n_pairs = 9, strips = 4, late = 5, lifting = 6, alone = 7, heavy = 8, filled = 9
 
    !> Walls with the same warning
    type :: odd_walls_type
@@ -58,7 +60,8 @@ module dondolo_case_wall_warnings
       !> thicker than high (1), have the place of a load without a load (2), have stones that overlap by more than the wall is
       !> thick (3), bend before they rock (4), with their frequency parameter, and of those with a period: open late (5), with
       !> opening / capacity, lift a mass (6), and are on a building of one mode (7), with its period; and have a mass that does not
-      !> go with their size (8), with the density that it means. Not allocated: there are none
+      !> go with their size (8), with the density that it means; and have the restitution of a solid block though their storeys have
+      !> different shares of masonry (9), with what it is with these. Not allocated: there are none
       type(odd_walls_type), allocatable :: odd(:, :)
       !> Strips with a period, beside their records and damage states
       type(elastic_warnings_type) :: elastic
@@ -120,6 +123,12 @@ contains
          outside(2) = (bears .or. abs(input%number('eccentricity')) > 0.0_wp) &
             & .and. .not. input%number('overburden') > 0.0_wp
          outside(3) = input%number('interlock_overlap') > thickest(wall)*(1.0_wp + same)
+         if (allocated(wall%impacts%sorrentino) .and. allocated(wall%impacts%impulse) .and. size(input%list('section_fill')) > 1 &
+            & .and. input%word('mechanism') == 'one_sided' .and. input%word('restitution') /= 'impulse') then
+            values(filled) = wall%impacts%impulse
+            outside(filled) = maxval(input%list('section_fill')) > minval(input%list('section_fill')) &
+               & .and. .not. input%has('restitution_value')
+         end if
          call note(self, wall, pairs, outside, values)
       end associate
    end subroutine look
@@ -207,6 +216,7 @@ contains
       call warn_of_pair(self, 3, overlap_above_thickness, 'interlock_overlap is more than the thickness of the wall: is it '// &
          & 'the length of a stone?', warnings)
       call warn_of_mass(self, warnings)
+      call warn_of_fill(self, warnings)
       call warn_of_bending(self, warnings)
       call warn_of_joints(self, warnings)
    end subroutine warn
@@ -297,6 +307,24 @@ contains
             & to_text(limit)//' kg/m3: is it in kg, and of the whole body?', warnings)
       end associate
    end subroutine warn_of_mass
+
+   !> Warn of the restitution of a solid block of walls whose storeys have different shares of masonry
+   subroutine warn_of_fill(self, warnings)
+      class(wall_warnings_type), intent(in) :: self
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+
+      associate (odd => self%odd(filled, pairs))
+         if (odd%number == 0) return
+         warning = warning_type(restitution_of_solid)
+         call warning%about('wall', odd%name)
+         call warning%with('impulse', odd%value)
+         call add(self, odd, warning, 'the restitution e is that of a solid block, though section_fill differs between its '// &
+            & 'storeys; restitution = ''impulse'' has the masses where they are, e = '//rounded(odd%value), warnings)
+      end associate
+   end subroutine warn_of_fill
 
    !> Warn of strips whose joints bend before they open, which the rigid blocks leave out
    subroutine warn_of_bending(self, warnings)

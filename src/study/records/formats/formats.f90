@@ -28,11 +28,13 @@ module dondolo_records_formats
    !> A format
    type :: format_type
       !> Name: one word in lower case
-      character(len=7) :: name = ''
+      character(len=9) :: name = ''
       !> Is a text in this format, judged by its content?
       procedure(recognises_text), pointer, nopass :: recognises => null()
       !> Read a text in this format
       procedure(read_text), pointer, nopass :: read => null()
+      !> Are its files plain columns, of which the caller may say what they are?
+      logical :: is_plain = .false.
    end type format_type
 
    abstract interface
@@ -60,7 +62,7 @@ contains
    !> The formats; plain columns come last, for what no other recognises
    function known_formats() result(known)
       !> The formats
-      type(format_type) :: known(14)
+      type(format_type) :: known(15)
 
       known = [ &
          & format_type('peer', recognises_peer, read_peer), &
@@ -76,8 +78,18 @@ contains
          & format_type('cwa', recognises_cwa, read_cwa), &
          & format_type('asa', recognises_asa, read_asa), &
          & format_type('eqsig', recognises_eqsig, read_eqsig), &
-         & format_type('columns', recognises_columns, read_columns_alone)]
+         & format_type('synthetic', recognises_none, read_columns_alone, is_plain=.true.), &
+         & format_type('columns', recognises_columns, read_columns_alone, is_plain=.true.)]
    end function known_formats
+
+   !> Plain columns do not say that they were computed and not recorded: the row of a catalogue does
+   logical function recognises_none(text) result(recognised)
+      type(text_file_type), intent(in) :: text
+
+      recognised = .false.
+      associate (unused => text)
+      end associate
+   end function recognises_none
 
    !> Read plain columns of which the caller says nothing
    subroutine read_columns_alone(text, samples, error)
@@ -105,7 +117,7 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      if (format%name == 'columns') then
+      if (format%is_plain) then
          call read_columns(text, given, samples, error)
       else if (len_trim(given%columns) > 0) then
          call raise_input(error, text%file//': columns = '''//shown(given%columns)//''': only for plain columns, '// &
