@@ -18,7 +18,8 @@ module dondolo_arguments
 
    !> Every option, in the order of the help page
    character(len=*), parameter :: option_names(*) = [character(len=12) :: '--check', '--walls', '--merge', '--status', &
-      & '--template', '--example', '--benchmark', '--completion', '--cite', '--threads', '--quiet', '--version', '--help']
+      & '--template', '--example', '--benchmark', '--completion', '--cite', '--threads', '--quiet', '--version', '--verbose', &
+      & '--help']
 
    !> Shells that --completion knows
    character(len=*), parameter :: shell_names(*) = [character(len=4) :: 'bash', 'zsh']
@@ -48,6 +49,8 @@ module dondolo_arguments
       type(lines_type) :: parts
       !> Print errors and warnings only
       logical :: quiet = .false.
+      !> Print more than the version
+      logical :: verbose = .false.
    end type arguments_type
 
 contains
@@ -86,6 +89,8 @@ contains
             call set_action('help')
          else if (word == '--quiet') then
             arguments%quiet = .true.
+         else if (word == '--verbose') then
+            arguments%verbose = .true.
          else if (word == '--template' .or. index(word, '--template=') == 1) then
             call set_action('template')
             if (.not. allocated(error)) call take_task(word, i, arguments, error)
@@ -121,7 +126,9 @@ contains
          end if
          if (allocated(error)) return
       end do
-      if (any(arguments%action == [character(len=5) :: 'run', 'check', 'merge'])) then
+      if (arguments%verbose .and. arguments%action /= 'version') then
+         call raise_input(error, '--verbose: goes with --version alone')
+      else if (any(arguments%action == [character(len=5) :: 'run', 'check', 'merge'])) then
          if (.not. allocated(arguments%case_file)) then
             call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
          else if (arguments%action == 'run') then

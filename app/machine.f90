@@ -22,7 +22,9 @@ contains
       character(len=256) :: line
       integer :: unit, stat
 
-      name = 'unknown'
+      ! Of Windows
+      call get_environment_variable('PROCESSOR_IDENTIFIER', name)
+      if (len_trim(name) == 0) name = 'unknown'
       open (newunit=unit, file='/proc/cpuinfo', action='read', status='old', iostat=stat)
       if (stat /= 0) return
       do

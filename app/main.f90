@@ -9,6 +9,7 @@ program dondolo_main
    use dondolo_base_plain, only : visible
    use dondolo_base_threads, only : available_threads, given_threads
    use dondolo_benchmark, only : run_benchmark
+   use dondolo_build_lines, only : print_build
    use dondolo_case, only : case_type
    use dondolo_case_cited, only : list_used
    use dondolo_case_job_group, only : typology_task
@@ -67,6 +68,7 @@ program dondolo_main
       call check_variant(error)
       if (allocated(error)) call give_up(error)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//trim(build_variant())
+      if (arguments%verbose) call print_build()
    case ('template')
       call print_template(arguments%task)
    case ('example')

@@ -15,12 +15,15 @@ install again: only changes are compiled.
 """
 
 import base64
+import contextlib
 import hashlib
 import os
 import sys
 import tempfile
+import threading
+import time
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
@@ -85,10 +88,30 @@ def build_wheel(
     wheel_directory: str, config_settings: Mapping[str, object] | None = None, metadata_directory: str | None = None
 ) -> str:
     """Build a wheel and return its name (PEP 517)."""
-    name: str = mesonpy.build_wheel(wheel_directory, config_settings, metadata_directory)
+    with telling_the_time():
+        name: str = mesonpy.build_wheel(wheel_directory, config_settings, metadata_directory)
     if puts_libraries_inside(config_settings):
         replace_metadata(Path(wheel_directory, name), bytes(read_metadata(is_standalone=True).as_rfc822()))
     return name
+
+
+@contextlib.contextmanager
+def telling_the_time(every: float = 8.0) -> Iterator[None]:
+    """Print how long it takes, for `pip install -v`: one large source may be compiled for longer than a user waits."""
+    ended = threading.Event()
+    start = time.monotonic()
+
+    def tell() -> None:
+        while not ended.wait(every):
+            print(f"building for {time.monotonic() - start:.0f} s", flush=True)
+
+    teller = threading.Thread(target=tell, daemon=True)
+    teller.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        teller.join()
 
 
 def replace_metadata(wheel: Path, metadata: bytes) -> None:

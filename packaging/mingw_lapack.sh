@@ -29,7 +29,7 @@ mkdir "$work/lapack"
 tar -xf "$work"/lapack_*.orig.tar.* -C "$work/lapack" --strip-components=1
 
 # Compile what is called and not there yet, until nothing is
-mapfile -t wanted < <(sed -n 's/^ *pure subroutine \([a-z0-9]*\)(.*/\1/p' src/core/base/numerics/lapack.f90 | grep '^d')
+mapfile -t wanted < <(sed -n 's/^ *pure subroutine \([a-z0-9]*\)(.*/\1/p' src/core/base/numerics/lapack.f90)
 while [ ${#wanted[@]} -gt 0 ]; do
    for name in "${wanted[@]}"; do
       for room in SRC INSTALL BLAS/SRC; do

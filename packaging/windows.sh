@@ -2,12 +2,13 @@
 # The archive for Windows, dist/dondolo-VERSION-windows.zip, and the wheel of the Python package for Windows, made on Debian by
 # mingw-w64: bash packaging/windows.sh
 # Needs gfortran-mingw-w64-x86-64-posix, and .venv of ./run setup for its meson and ninja. test/windows.sh and test/windows_wheel.sh
-# try them.
+# try them. The same commit gives the same bytes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 dist=${DONDOLO_DIST:-dist}
 export PATH=$PWD/.venv/bin:$PATH
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)
 name=dondolo-$version
 libraries=$PWD/build-windows/libraries
@@ -18,7 +19,7 @@ staged=$PWD/build-windows/staged
 
 bash packaging/mingw_lapack.sh "$libraries"
 bash packaging/windows_python.sh "$python"
-printf "[built-in options]\nfortran_link_args = ['-static', '-L%s']\n" "$libraries" >"$libraries/lapack.cross"
+printf "[built-in options]\nfortran_link_args = ['-static', '-Wl,--no-insert-timestamp', '-L%s']\n" "$libraries" >"$libraries/lapack.cross"
 [ -e build-windows/meson/build.ninja ] || meson setup build-windows/meson --cross-file packaging/mingw.cross \
    --cross-file "$libraries/lapack.cross" --cross-file "$python/python.cross" -Dpython.build_config="$python/build-details.json" \
    -Dpython.platlibdir=lib/site-packages -Dpython.bytecompile=-1 -Ddatadir=. --prefix "$root"
@@ -56,13 +57,13 @@ python3 packaging/check_wheel.py "$wheel"
 build-windows/pages/bin/python packaging/windows_pages.py "$root" "${wheel##*/}"
 python3 - "$root" "$dist/$name-windows.zip" <<'PYTHON'
 import sys
-import zipfile
 from pathlib import Path
 
+sys.path.insert(0, "packaging")
+from archives import write_archive
+
 root = Path(sys.argv[1])
-with zipfile.ZipFile(sys.argv[2], "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-    for path in sorted(root.rglob("*")):
-        if path.is_file():
-            archive.write(path, path.relative_to(root.parent))
+members = {path.relative_to(root.parent).as_posix(): path.read_bytes() for path in root.rglob("*") if path.is_file()}
+write_archive(Path(sys.argv[2]), members)
 PYTHON
 ls -l "$dist/$name-windows.zip" "$wheel" >&2

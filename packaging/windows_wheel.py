@@ -7,9 +7,9 @@ Python only.
 
 import json
 import sys
-import zipfile
 from pathlib import Path
 
+from archives import write_archive
 from backend import ROOT, read_metadata, record_line
 
 
@@ -42,9 +42,7 @@ def write_wheel(prefix: Path, details: Path, folder: Path, licences: list[Path])
     lines = [record_line(name, content) for name, content in members.items()]
     members[f"{info}/RECORD"] = "\n".join([*lines, f"{info}/RECORD,,", ""]).encode()
     wheel = folder / f"{stem}-{tag}.whl"
-    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, content in members.items():
-            archive.writestr(name, content)
+    write_archive(wheel, members)
     return wheel
 
 

@@ -494,7 +494,7 @@ rm -rf example
 
 run --help
 check "help: exit code" equal "$rc" 0
-for option in --check --walls --merge --status --template --example --benchmark --completion --cite --threads --quiet --version --help; do
+for option in --check --walls --merge --status --template --example --benchmark --completion --cite --threads --quiet --version --verbose --help; do
    check "help: $option" contains stdout "$option"
    check "unknown option: $option is offered" grep -q -- " $option" <("$exe" --fast 2>&1)
 done
@@ -554,6 +554,11 @@ check "benchmark: quiet" equal "$(cut -d: -f1 stdout)" "figure of merit"
 run --version
 check "version: exit code" equal "$rc" 0
 check "version: as in fpm.toml" equal "$(head -n 1 stdout)" "dondolo $(sed -n 's/^version = "\(.*\)"/\1/p' "$root/fpm.toml")"
+check "version: nothing more" equal "$(wc -l <stdout)" 2
+run --version --verbose
+for line in commit compiler options reals LAPACK processor machine; do
+   check "version: verbose: $line" grep -qE "^$line: .*[[:alnum:]]" stdout
+done
 check "version: names the build variant" grep -qE '^build variant (baseline|native|avx2|avx512)$' stdout
 before=$(listing)
 run good.nml --check
@@ -608,6 +613,7 @@ refused "threads with a word" '--threads many: must be an integer between 0 (all
 refused "negative threads" '--threads -1: must be an integer' --threads -1 good.nml
 refused "empty threads" '--threads : must be an integer' --threads= good.nml
 refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
+refused "a verbose run" '--verbose: goes with --version alone' --verbose good.nml
 refused "two actions" '--version: cannot go together with --check' --check --version
 refused "example that does not exist" "--example barn: must be one of 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade'" --example barn
 refused "example without a name" "--example: must be one of 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade'" --example

@@ -6,7 +6,7 @@ set -euo pipefail
 
 turns=(
    ''
-   'attack|docs|figures'
+   'attack|docs|figures|page'
    'benchmark|city'
    'coverage|demo|experiments --check'
    'intervals|mutations|build pgo'

@@ -2,58 +2,14 @@
 # Each verb of ./run in its smallest form: bash test/verbs.sh [VERB...]
 # Prints one line for each that has ended: what became of it, its minutes and those of processors, and for one that failed its
 # last line. Fails if any fails, or if the sources are not as they were. Two verbs run at once, but those that build by fpm,
-# which share its folder, run one after the other. What they print and write is in out/verbs and out/quick. With DONDOLO_MINUTES only
-# those run that by the table below fit into as many minutes, the others are skipped. Which goes first changes from commit to commit,
-# so that each has its turn. The clock has no part in it: the same commit runs the same verbs on any machine.
+# which share its folder, run one after the other. What they print and write is in out/verbs and out/quick.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-# Verbs in their smallest forms, and the minutes that each takes beside another on two cores
-declare -A minutes=(
-   ['stress 100']=12
-   ['attack 5']=7
-   ['reference --quick']=3
-   ['coverage wall']=3
-   ['verification --quick']=6
-   ['synthetic44 out/quick/records']=1
-   ['oldest --quick']=9
-   ['openquake --quick']=8
-   ['wheel python3']=5
-   ['windows --quick']=1
-   ['mutations --quick']=3
-   ['docs']=5
-   ['city --quick']=2
-   ['figures out/quick/figures']=1
-   ['experiments --check']=1
-   ['intervals --quick']=2
-   ['benchmark --quick']=5
-)
+# Verbs in their smallest forms
 by_fpm=('stress 100' 'attack 5' 'reference --quick' 'coverage wall' 'verification --quick' 'synthetic44 out/quick/records')
-others=('oldest --quick' 'openquake --quick' 'wheel python3' 'windows --quick' 'mutations --quick' 'docs' 'city --quick'
+others=('oldest --quick' 'openquake --quick' 'wheel python3' 'windows --quick' 'page' 'mutations --quick' 'docs' 'city --quick'
    'figures out/quick/figures' 'experiments --check' 'intervals --quick' 'benchmark --quick')
-commits=$(git rev-list --count HEAD 2>/dev/null || echo 0)
-rotate() { # rotate LIST: its elements, begun at one that changes with the commits
-   local -n list=$1
-   local first=$((commits % ${#list[@]}))
-   list=("${list[@]:first}" "${list[@]:0:first}")
-}
-rotate by_fpm
-rotate others
-# Forms that DONDOLO_MINUTES leaves out, each in a line of its own
-later=
-leave_for_later() { # leave_for_later LIST
-   local -n list=$1
-   local form planned=0
-   for form in "${list[@]}"; do
-      if [ $((planned + minutes["$form"])) -le "${DONDOLO_MINUTES:-9999}" ]; then
-         planned=$((planned + minutes["$form"]))
-      else
-         later+=$form$'\n'
-      fi
-   done
-}
-leave_for_later by_fpm
-leave_for_later others
 wanted=("$@")
 logs=out/verbs
 line='%-32s %-8s %7s %7s  %s\n'
@@ -71,7 +27,7 @@ is_wanted() {
 obstacle() {
    case $1 in
       windows*)
-         command -v x86_64-w64-mingw32-gcc-posix >/dev/null || echo "needs gcc-mingw-w64-x86-64-posix" ;;
+         command -v x86_64-w64-mingw32-gcc-posix apt-get >/dev/null || echo "needs gcc-mingw-w64-x86-64-posix" ;;
       oldest*)
          command -v python3.11 python3.12 >/dev/null || echo "needs Python 3.11 or 3.12" ;;
    esac
@@ -86,7 +42,6 @@ try() {
    is_wanted "$form" || return 0
    log=$logs/$(name_of "$form").log
    why=$(obstacle "$form")
-   if grep -qxF "$form" <<<"$later"; then why='has its turn in another commit'; fi
    if [ -n "$why" ]; then
       # shellcheck disable=SC2059
       printf "$line" "$form" skipped - - "$why"

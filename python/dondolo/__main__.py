@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import gc
-import importlib
+import importlib.metadata
 import os
+import platform
 import re
 import sys
 import warnings
@@ -27,12 +28,16 @@ from dondolo.records.catalogues import build_catalogue
 from dondolo.reporting.language import Language
 from dondolo.reporting.pdf import check_printer
 
+_VERSION = f"dondolo {dd.__version__} ({dd.Solver.variant()})"
 # An animation: frames per second, and the longest film [s]
 _FRAMES, _FILM = 15, 30.0
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command and return its exit code: 0 success, 1 failure while running, 2 invalid input."""
+    if sorted(sys.argv[1:] if arguments is None else arguments) == ["--verbose", "--version"]:
+        _print_versions()
+        return 0
     options = _parser().parse_args(arguments)
     # A warning, or a note on how a table was read, is one line, as the executable's.
     warnings.showwarning = lambda message, *rest: _tell(
@@ -61,6 +66,16 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
+def _print_versions() -> None:
+    """Print the version, and those of all that may explain a difference between two computers."""
+    print(_VERSION, f"Python: {' '.join(sys.version.split())}", f"system: {platform.platform()}", sep="\n")
+    for name in ("numpy", "scipy", "matplotlib", "pandas", "python-docx", "XlsxWriter", "starlette", "uvicorn"):
+        try:
+            print(f"{name}: {importlib.metadata.version(name)}")
+        except importlib.metadata.PackageNotFoundError:
+            print(f"{name}: not installed")
+
+
 def _tell(message: object) -> None:
     """Print a message on stderr, one line for each sentence."""
     for line in str(message).split("\n"):
@@ -86,7 +101,12 @@ def _parser() -> argparse.ArgumentParser:
         description="dondolo: fragility of masonry walls that rock and overturn in earthquakes. "
         "Analyses are run by the executable, dondolo --help, or in Python.",
     )
-    parser.add_argument("--version", action="version", version=f"dondolo {dd.__version__} ({dd.Solver.variant()})")
+    parser.add_argument(
+        "--version",
+        action="version",
+        version=_VERSION,
+        help="print the version and end; with --verbose also those of Python and its packages, for an issue",
+    )
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     plot = commands.add_parser(
         "plot",

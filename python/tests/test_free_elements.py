@@ -308,5 +308,5 @@ def test_rows_of_the_table_of_the_circolare(root, executable):
     said = subprocess.run([executable, "--help"], capture_output=True, text=True, check=True).stdout
     assert {tuple(map(int, pair)) for pair in re.findall(r" (\d{3,4})-(\d{4})\b", said)} == pairs
     script = (root / "python/dondolo/serve/page/form.js").read_text()
-    script = script[script.index("const MASONRY") :].partition("\n")[0]
+    script = script[script.index("const MASONRY") :].partition("];")[0]
     assert {tuple(map(int, pair)) for pair in re.findall(r", (\d+), (\d+)\]", script)} == pairs

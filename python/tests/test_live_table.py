@@ -8,8 +8,8 @@ import threading
 from functools import partial
 
 import pytest
+from browsers import CHROMIUM, needs_browser
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
 
@@ -56,7 +56,7 @@ def test_between_walls_of_the_table(live_table, table):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(CHROMIUM is None, reason="no browser here: apt-get install chromium")
+@needs_browser
 def test_sliders_without_a_server(live_table, table, root, tmp_path):
     """The browser interpolates as the script does, and says that it does."""
     playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from browsers import needs_browser
 
 import dondolo as dd
 
@@ -194,7 +195,7 @@ def test_report_as_pdf_needs_a_printer(run, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="Chromium is not installed")
+@needs_browser
 def test_report_as_pdf(run):
     path = run.with_name("report.pdf")
     dd.report(dd.read_results(run), path)

@@ -3,32 +3,34 @@
 from __future__ import annotations
 
 import re
-import shutil
-import statistics
 import subprocess
 import sys
 import time
 from pathlib import Path
 
 import pytest
+from browsers import CHROMIUM, needs_browser
 from refused_states import states
 
 import dondolo as dd
 
 pytest.importorskip("uvicorn", reason="uvicorn is not installed")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(CHROMIUM is None, reason="no browser here: apt-get install chromium"),
+    needs_browser,
     pytest.mark.filterwarnings("ignore:&check"),
 ]
-# Times from a key to the painted curve, in the page [ms]
-CLOCK = """
-window.times = []; let pressed = 0;
-addEventListener('input', () => { pressed = performance.now(); }, true);
-addEventListener('painted', () => { if (pressed) { const from = pressed; pressed = 0;
-  requestAnimationFrame(() => requestAnimationFrame(() => times.push(performance.now() - from))); } });
+# Of the questions for curves: how many there were, and most at once; how often a curve was painted
+COUNTER = """
+window.asked = { all: 0, now: 0, most: 0, painted: 0 };
+const fetched = window.fetch;
+window.fetch = (path, ...more) => {
+  if (path !== 'curve') return fetched(path, ...more);
+  asked.all += 1; asked.now += 1; asked.most = Math.max(asked.most, asked.now);
+  return fetched(path, ...more).finally(() => { asked.now -= 1; });
+};
+addEventListener('painted', () => { asked.painted += 1; });
 """
 
 
@@ -63,7 +65,7 @@ def visit(address, browser):
         page = context.new_page()
         page.on("pageerror", lambda error: failed.append(str(error)))
         page.on("console", lambda line: failed.append(line.text) if "Content Security" in line.text else None)
-        page.add_init_script(CLOCK)
+        page.add_init_script(COUNTER)
         page.goto(address)
         page.wait_for_selector("#chart path.line.a")
         pages.append(context)
@@ -453,35 +455,35 @@ def test_cases_come_and_go(visit, root, tmp_path):
 
 
 def test_curves_follow_the_slider(visit):
-    """From a key to the painted curve: within the patience of a hand, whatever else this machine does."""
+    """Curves are painted while keys come, one question at a time, whose newest state waits: no queue of old states."""
     page = visit()
+    settled(page)
+    page.evaluate("Object.assign(asked, { all: 0, painted: 0 })")
     page.focus("[data-name='wall.height'] input[type=range]")
-    for i in range(40):
-        page.keyboard.press("ArrowRight" if i % 2 else "ArrowLeft")
+    keys = 0
+    # On a slow machine more keys than on a fast one
+    while page.evaluate("asked.painted") < 8:
+        keys += 1
+        assert keys < 2000
+        page.keyboard.press("ArrowRight" if keys % 2 else "ArrowLeft")
         page.wait_for_timeout(30)
     settled(page)
-    times = page.evaluate("times")
-    assert len(times) >= 8
-    assert statistics.median(times) < 1000.0
+    asked = page.evaluate("asked")
+    assert asked["most"] == 1
+    # A draft of a drag that is over has its whole answer after it.
+    assert asked["all"] <= 2 * keys
 
 
 def test_a_key_asks_once(visit):
-    """One question for a key, whose answer comes in one go: without TCP_NODELAY its second part waits 40 ms."""
+    """One question for a key."""
     page = visit()
     settled(page)
     page.focus("[data-name='wall.thickness'] input[type=range]")
-    page.evaluate("performance.clearResourceTimings()")
     drafts = []
     page.on("request", lambda one: drafts.append(one.post_data_json["draft"]) if one.url.endswith("/curve") else None)
     for i in range(12):
         page.keyboard.press("ArrowRight" if i % 2 else "ArrowLeft")
         settled(page)
-    answers = page.evaluate(
-        "performance.getEntriesByType('resource').filter((one) => one.name.endsWith('/curve'))"
-        ".map((one) => one.responseEnd - one.responseStart)"
-    )
     # On a machine so busy that an answer takes longer than a drag may wait, a draft comes before it.
     assert drafts.count(False) == 12
     assert drafts.count(True) <= 12
-    assert len(answers) == len(drafts)
-    assert statistics.median(answers) < 25.0

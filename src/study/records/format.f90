@@ -92,7 +92,7 @@ contains
 
       integer :: line, at, first, finish, last, found, width, per_line
       real(wp) :: value
-      logical :: ok, is_cut
+      logical :: ok
 
       ! A header may state any count; the text bounds how many numbers there can be
       allocate (values(max(0, min(count, len(text%text)))))

@@ -1,20 +1,66 @@
-// The case on the page and what is asked for it. The groups of the case are all there is: the server answers for them alone.
+// The case on the page and what is asked for it. The groups of the case are all there is: the server answers for them
+// alone.
 import { language } from "./words.js";
 
-export const state = { settings: {}, auto: true, b: null, fan: null, answer: null, bAnswer: null, properties: {}, record: 0, pga: 0.5 };
+/** @typedef {{ group: string, name: string, place: number | null, share: number }} Fan A property that is varied */
+/**
+ * Groups of the case and of one that it is compared with, the server's answers to them, and its table of properties
+ * @type {{
+ *   settings: Record<string, any>, auto: boolean, answer: any, isNewest: boolean, version: number,
+ *   b: Record<string, any> | null, bAuto: boolean, bAnswer: any, fan: Fan | null,
+ *   properties: Record<string, Record<string, any>>, record: number, pga: number,
+ * }}
+ */
+export const state = {
+  settings: {},
+  auto: true,
+  answer: null,
+  isNewest: false,
+  version: 0,
+  b: null,
+  bAuto: true,
+  bAnswer: null,
+  fan: null,
+  properties: {},
+  record: 0,
+  pga: 0.5,
+};
 
 // Last answers took so long that a drag is drawn with half of the records [ms]
 const SLOW = 60;
 // Pause after which a drag is over [ms]
 const PAUSE = 180;
-// A question that has taken so long is given up for a newer one; a draft is waited for, so that curves are seen while dragging [ms]
+// A question that has taken so long is given up for a newer one; a draft is waited for, so that curves are seen while
+// dragging [ms]
 const LATE = 300;
-let flying = null, waits = false, dragging = false, slow = 0, later = 0, told = () => {};
+/** @type {{ draft: boolean, since: number, given: AbortController } | null} */
+let flying = null;
+/** @type {(what: "waiting" | "answer" | "refused", error?: any) => void} */
+let told = () => {};
+/** @type {ReturnType<typeof setTimeout> | undefined} */
+let later;
+let waits = false,
+  dragging = false,
+  slow = 0;
 
-export const whenTold = (f) => { told = f; };
+export const whenTold = (f) => {
+  told = f;
+};
 
+/**
+ * The answer of the server
+ * @param {string} path
+ * @param {object} body
+ * @param {AbortSignal} [signal]
+ * @returns {Promise<any>}
+ */
 export async function post(path, body, signal) {
-  const response = await fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body), signal });
+  const response = await fetch(path, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+    signal,
+  });
   if (path === "document" && response.ok) return response.blob();
   const answer = await response.json().catch(() => ({ error: String(response.status) }));
   if (!response.ok) throw Object.assign(new Error(answer.error), { answer });
@@ -23,12 +69,19 @@ export async function post(path, body, signal) {
 
 // Something has changed: ask for the curve of the newest state; one question at a time, the newest one waits.
 export function changed(moving = false) {
-  state.version = (state.version || 0) + 1;
+  state.version += 1;
   state.isNewest = false;
-  if (flying && !flying.draft && performance.now() - flying.since > LATE) { slow = performance.now() - flying.since; flying.given.abort(); }
+  if (flying && !flying.draft && performance.now() - flying.since > LATE) {
+    slow = performance.now() - flying.since;
+    flying.given.abort();
+  }
   dragging = moving && slow > SLOW;
   clearTimeout(later);
-  if (moving) later = setTimeout(() => { dragging = false; if (!flying && (state.answer === null || state.answer.draft)) ask(); }, PAUSE);
+  if (moving)
+    later = setTimeout(() => {
+      dragging = false;
+      if (!flying && (state.answer === null || state.answer.draft)) ask();
+    }, PAUSE);
   told("waiting");
   ask();
 }
@@ -41,11 +94,16 @@ export function letGo() {
 }
 
 async function ask() {
-  if (flying) { waits = true; return; }
+  if (flying) {
+    waits = true;
+    return;
+  }
   do {
     waits = false;
-    const version = state.version, draft = dragging;
+    const version = state.version,
+      draft = dragging;
     flying = { draft, since: performance.now(), given: new AbortController() };
+    /** @type {Record<string, unknown>} */
     const body = { settings: state.settings, auto: state.auto, lang: language(), draft };
     if (state.b && !draft) body.b = state.b;
     if (state.fan && !draft) body.fan = state.fan;

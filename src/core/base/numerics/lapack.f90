@@ -4,9 +4,14 @@ module dondolo_base_lapack
    implicit none
    private
 
-   public :: solve_symmetric, invert_symmetric
+   public :: solve_symmetric, invert_symmetric, lapack_version
 
    interface
+
+      !> Version of LAPACK
+      pure subroutine ilaver(major, minor, patch)
+         integer, intent(out) :: major, minor, patch
+      end subroutine ilaver
 
       !> Cholesky factorisation of a symmetric positive definite matrix
       pure subroutine dpotrf(uplo, n, a, lda, info)
@@ -45,6 +50,16 @@ module dondolo_base_lapack
    end interface
 
 contains
+
+   !> Version of LAPACK, as '3.11.0', filled up with blanks
+   function lapack_version() result(version)
+      character(len=32) :: version
+
+      integer :: major, minor, patch
+
+      call ilaver(major, minor, patch)
+      write (version, '(i0, 2(".", i0))') major, minor, patch
+   end function lapack_version
 
    !> Solve A x = b
    pure subroutine solve_symmetric(matrix, vector, solution, ok)
