@@ -8,5 +8,5 @@ import pytest
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 # On the machines that decide about a change no test of a page may be left out in silence: there they fail.
 needs_browser = pytest.mark.skipif(
-    CHROMIUM is None and "CI" not in os.environ, reason="no browser here: apt-get install chromium"
+    CHROMIUM is None and "GITHUB_ACTIONS" not in os.environ, reason="no browser here: apt-get install chromium"
 )
