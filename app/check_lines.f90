@@ -92,8 +92,8 @@ contains
       do i = 1, size(check_states)
          line = check_methods(i)//' '//check_states(i)//' '
          if (sheet%is_all_one(check_methods(i), 'applicable', check_states(i))) then
-            capacity = sheet%value(taken(), check_states(i), 'displacement')
-            demand = sheet%value(taken(), check_states(i), 'demand')
+            capacity = sheet%value(trim(taken()), check_states(i), 'displacement')
+            demand = sheet%value(trim(taken()), check_states(i), 'demand')
             if (check_methods(i) == 'linear') then
                capacity = sheet%value('mechanism', '', 'a_0')
                if (check_states(i) == 'SLV') capacity = capacity*sheet%value('linear', 'SLV', 'behaviour')
@@ -111,8 +111,8 @@ contains
          if (check_methods(i) /= 'nonlinear' .or. .not. sheet%has_ratios()) cycle
          if (taken() == 'untied') write (output_unit, '(a)') 'nonlinear '//check_states(i)//': without the ties whose anchors '// &
             & 'or bars would lower it, see the note'
-         if (sheet%value('nonlinear', check_states(i), 'ratio')*sheet%value(taken(), check_states(i), 'demand') > &
-            & rounding*sheet%value(taken(), check_states(i), 'displacement')) write (output_unit, '(a)') 'nonlinear '// &
+         if (sheet%value('nonlinear', check_states(i), 'ratio')*sheet%value(trim(taken()), check_states(i), 'demand') > &
+            & rounding*sheet%value(trim(taken()), check_states(i), 'displacement')) write (output_unit, '(a)') 'nonlinear '// &
             & check_states(i)//': the ratio is that of accelerations at activation, which is greater (C8.7.1.2.1.8)'
       end do
       if (has_curve()) write (output_unit, '(a)') 'P(collapse): by the fragility curve, with its 95 % interval, at the peak '// &
@@ -131,11 +131,12 @@ contains
 
       !> The curve that a nonlinear check takes: with all ties, or without some
       function taken() result(method)
-         character(len=:), allocatable :: method
+         character(len=9) :: method
 
          method = 'nonlinear'
-         if (sheet%value('nonlinear', check_states(i), 'less_zeta') > sheet%value('nonlinear', check_states(i), 'tied_zeta')) &
-            & method = 'untied'
+         associate (state => check_states(i))
+            if (sheet%value(method, state, 'less_zeta') > sheet%value(method, state, 'tied_zeta')) method = 'untied'
+         end associate
       end function taken
 
       !> Does the sheet have probabilities?

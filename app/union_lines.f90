@@ -182,13 +182,14 @@ contains
          if (verdicts%checked == 0) return
          longest = 0
          do i = 1, min(verdicts%checked, shown_verdicts)
-            longest = max(longest, len(name_of(verdicts%first, i)))
+            longest = max(longest, len(verdicts%first(i)%name//trim(suffix_of(verdicts%first, i))))
          end do
          write (output_unit, '(a, a10, 4a15, a13)') left('capacity / demand', name_width(longest)), 'alpha_0', &
             & (right(trim(check_methods(k))//' '//check_states(k), 15), k=1, size(check_states)), 'P at a_g S'
          do i = 1, min(verdicts%checked, shown_verdicts)
             associate (verdict => verdicts%first(i))
-               write (output_unit, '(a, a10, 4a15, a13)') left(name_of(verdicts%first, i), name_width(longest)), &
+               write (output_unit, '(a, a10, 4a15, a13)') &
+                  & left(verdict%name//trim(suffix_of(verdicts%first, i)), name_width(longest)), &
                   & right(rounded(verdict%multiplier), 10), &
                   & (ratio_of(verdict%ratio(k), verdict%is_applicable(k)), k=1, size(check_states)), in_column(verdict%probability)
             end associate
@@ -206,21 +207,21 @@ contains
 
    contains
 
-      !> Name of a wall, with its mechanism where another of the first rows has the same name
-      function name_of(first, i) result(name)
+      !> What is printed after the name of a wall: its mechanism where another of the first rows has the same name
+      function suffix_of(first, i) result(suffix)
          type(verdict_type), intent(in) :: first(:)
          integer, intent(in) :: i
-         character(len=:), allocatable :: name
+         character(len=24) :: suffix
 
          integer :: k
 
-         name = first(i)%name
+         suffix = ''
          do k = 1, min(results%verdicts%checked, size(first))
             if (k == i .or. first(k)%name /= first(i)%name) cycle
-            name = name//', '//first(i)%mechanism
+            suffix = ', '//first(i)%mechanism
             return
          end do
-      end function name_of
+      end function suffix_of
 
       !> Capacity / demand in its column, of a check that is one for the wall
       function ratio_of(ratio, is_applicable) result(cell)

@@ -506,8 +506,8 @@ EDITS = [
     ),
     Edit(
         "thrusts are drawn at the outer face",
-        "[t - (inner_face(wall, part.height) if part.depth is None else part.depth)",
-        "[t - (0.0 if part.depth is None else part.depth)",
+        "t - (inner_face(wall, height_of(wall, part)) if part.depth is None else part.depth)",
+        "t - (0.0 if part.depth is None else part.depth)",
         "test_shown_truths.py::test_forces_are_drawn_where_the_calculation_has_them",
     ),
     Edit(
@@ -554,8 +554,8 @@ EDITS = [
     ),
     Edit(
         "pushed masses are added to what loses height",
-        '(" - ", "Q", "z", sums.pushed)',
-        '(" + ", "Q", "z", sums.pushed)',
+        'numbers += _signed(" - ", sums.pushed)',
+        'numbers += _signed(" + ", sums.pushed)',
         "test_truths.py::test_every_formula_of_a_document_gives_its_value",
     ),
     Edit(

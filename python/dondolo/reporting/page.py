@@ -255,7 +255,7 @@ def _chapters(run: Run, hazard: HazardCurve | None, language: Language) -> list[
         facts = code_checks(
             run.checks,
             results.curves,
-            results.population.p_occ,
+            results.population.p_occ.tolist(),
             facade=results.unions[run.facade] if run.facade else None,
             with_sheets=run.is_alike and len(run.checks) <= inputs.DRAWN,
         )

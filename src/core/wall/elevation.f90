@@ -163,7 +163,7 @@ contains
 
       !> The line that the facade turns about, in a word
       pure function line() result(word)
-         character(len=:), allocatable :: word
+         character(len=4) :: word
 
          word = 'base'
          if (input%has('axis_x')) word = 'axis'

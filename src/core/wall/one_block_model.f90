@@ -429,8 +429,8 @@ contains
          else
             call lines%add('masonry: '//rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer '// &
                & 'face, '//rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
-            if (input%has('axis_x')) call lines%add('axis: heights are above the line through ('//point(1)//') and ('//point(2)// &
-               & ') m; share of gravity '//rounded(actions%gravity_share))
+            if (input%has('axis_x')) call lines%add('axis: heights are above the line through ('//trim(point(1))// &
+               & ') and ('//trim(point(2))//') m; share of gravity '//rounded(actions%gravity_share))
          end if
          do i = 1, size(self%body%wedges)
             associate (wedge => self%body%wedges(i))
@@ -451,7 +451,8 @@ contains
       !> A point of the axis
       function point(number) result(text)
          integer, intent(in) :: number
-         character(len=:), allocatable :: text
+         !> Its coordinates, filled up with blanks
+         character(len=64) :: text
 
          real(wp), allocatable :: x(:), z(:)
 

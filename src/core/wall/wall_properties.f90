@@ -78,7 +78,7 @@ module dondolo_wall_properties
       &   meaning='factor on the restitution e of any model'), &
       & property_type('restitution_sd', optional=.true., smallest=0.0_wp, largest=0.5_wp, less=.true., example='0.02', &
       &   meaning='standard deviation of the restitution e, which then varies from impact to impact, uniformly about that of '// &
-      &   'the model; engine rk45 only'), &
+      &   'the model'), &
       & property_type('restitution_seed', is_integer, optional=.true., smallest=1.0_wp, largest=1.0e6_wp, absent=1.0_wp, &
       &   example='1', meaning='seed of the random numbers of these ratios, 1 if not given')]
 

@@ -267,7 +267,8 @@ def _without(one: Subject, name: str) -> MasonryWall:
     has_plates = any(tie.plate_width is not None or tie.plate_diameter is not None for tie in ties)
     # Without plates the strengths of the masonry behind them are refused.
     masonry = [field.name for field in fields(one.wall) if field.name.startswith("masonry_") and not has_plates]
-    wall = replace(one.wall, ties=ties, **dict.fromkeys(masonry))  # type: ignore[call-arg]
+    given: dict[str, Any] = {"ties": ties, **dict.fromkeys(masonry)}
+    wall = replace(one.wall, **given)
     hinges = [row.value for row in one.check.rows if (row.method, row.item, row.quantity) == ("untied", name, "hinge")]
     return replace(wall, hinge=hinges[0]) if hinges else wall  # type: ignore[call-arg]
 
