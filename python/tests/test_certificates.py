@@ -238,6 +238,29 @@ def test_records_without_printed_digits(wall, few):
     assert np.array_equal(some.edp_rounded, told.edp_rounded[:, 1:])
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_files_of_records_without_printed_digits(few, run, tmp_path):
+    """Their cells are empty, by the executable as by Python, and both read them."""
+    computed = dd.Record(0.3 * few[0].acceleration / 7.0, few[0].dt, name="computed")
+    dd.RecordSet([computed, *few[1:3]]).to_catalogue(tmp_path / "records.csv")
+    case = tmp_path / "case.nml"
+    case.write_text(
+        f"&job task = 'stripes' output = '{tmp_path}/result' /\n"
+        "&wall mechanism = 'one_sided' height = 3.0 thickness = 0.25 /\n"
+        f"&records catalogue = '{tmp_path}/records.csv' /\n&stripes levels = 0.3, 0.5, 0.8 /\n"
+        "&solver certify = .true. /\n",
+        encoding="utf-8",
+    )
+    mine = dd.run_case(case, progress=False).stripes
+    assert run(case).returncode == 0
+    theirs = dd.read_results(tmp_path / "result").stripes
+    mine.write_results(tmp_path / "mine")
+    for stripes in (mine, theirs, dd.read_results(tmp_path / "mine").stripes):
+        assert np.isnan(stripes.edp_rounded[:, 0]).all()
+        assert np.array_equal(stripes.edp_rounded[:, 1:], mine.edp_rounded[:, 1:])
+        assert stripes.rounding_changes()[1] == 6
+
+
 def test_the_report_says_what_the_rounding_changes(undecided, tmp_path):
     changed, known = undecided.rounding_changes()
     dd.report(undecided, tmp_path / "rounded.html")

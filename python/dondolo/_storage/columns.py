@@ -83,6 +83,14 @@ class Columns:
             self.number(name, first + int(np.argmin(np.isfinite(values))))
         return values
 
+    def given_numbers(self, name: str) -> FloatArray:
+        """Finite numbers of a column, NaN where a cell is empty."""
+        values = self._values(name)
+        for i in np.flatnonzero(~np.isfinite(values)):
+            if self.given(name, int(i)):
+                self.number(name, int(i))
+        return values
+
     def count(self, name: str, i: int) -> int:
         """A cell that is a whole number, not negative."""
         value = self.number(name, i)

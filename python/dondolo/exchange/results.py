@@ -409,7 +409,7 @@ def _stripes(
             "status": matrix(np.asarray(numbers, dtype=np.int32)),
             "edp_lowest": matrix(table.numbers("edp_lowest")),
             "edp_highest": matrix(table.numbers("edp_highest")),
-            "edp_rounded": matrix(table.numbers("edp_rounded")),
+            "edp_rounded": matrix(table.given_numbers("edp_rounded")),
         }
     return Stripes(
         wall=wall,

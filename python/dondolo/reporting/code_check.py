@@ -153,7 +153,12 @@ def code_checks(
 
 
 # Numbers of the sheet that are 1 or 0
-_YES_OR_NO = ("free_element", "applicable", "required", "turns_first", "hierarchy", "plate_verified", "anchor_checked")
+_YES_OR_NO = (
+    *("verified", "free_element", "applicable", "required", "extrapolated", "turns_first", "hierarchy"),
+    *("plate_verified", "anchor_checked"),
+)
+# References with words
+_LAWS = (_("D.M. 14-1-2008, annex A"), _("D.M. 14-1-2008, annex B"))
 # What is open of ties whose anchors are known
 _OPEN_TIES = {
     "hierarchy": _("hierarchy of strengths not respected, the anchor gives way before the bar yields"),
@@ -355,9 +360,18 @@ def _chance(found: Chance | None) -> Piece:
     return NONE if found is None else chance(*found)
 
 
+def _flag(row: SheetRow) -> Piece:
+    """A number of the sheet that is 1 or 0; English meanings say what each is, Italian ones are cut before."""
+    if in_english():
+        return whole(row.value)
+    if row.value > 0.0:
+        return say("yes")
+    return say("perhaps") if row.quantity == "free_element" else say("no")
+
+
 def _sheet(check: CodeCheck) -> Table:
     """All numbers, in the order of the calculation."""
-    counts = ("records", "histories", "beyond", "verified", *_YES_OR_NO)
+    counts = ("records", "histories", "beyond")
     shown = [row for row in check.rows if not row.quantity.startswith("probability")]
     texts = say("check"), say("symbol"), say("unit"), say("formula")
     columns: dict[Piece, Sequence[Piece]] = {
@@ -371,10 +385,12 @@ def _sheet(check: CodeCheck) -> Table:
             if check._is_void(row)
             else whole(row.value)
             if row.quantity in counts
+            else _flag(row)
+            if row.quantity in _YES_OR_NO
             else (f"{row.bound} " * bool(row.bound), cell(row.value, _unit(row), 6))
             for row in shown
         ],
         texts[2]: [say(_unit(row).name) if row.unit else NONE for row in shown],
-        texts[3]: [row.formula or NONE for row in shown],
+        texts[3]: [say(row.formula) if row.formula in _LAWS else row.formula or NONE for row in shown],
     }
     return Table.of(columns, texts)

@@ -336,11 +336,7 @@ contains
       end if
       call table%put('edp_lowest', certified%lowest)
       call table%put('edp_highest', certified%highest)
-      if (certified%rounded > not_known) then
-         call table%put('edp_rounded', certified%rounded)
-      else
-         call table%put('edp_rounded', '')
-      end if
+      call table%put('edp_rounded', certified%rounded, certified%rounded > not_known)
    end subroutine put_certified
 
    !> The rows of a time history
