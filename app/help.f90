@@ -21,7 +21,7 @@ module dondolo_help
       & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) each on one', &
       & '   dondolo --completion SHELL   print the completion for bash or zsh: eval "$(dondolo --completion bash)"', &
       & '   dondolo --cite [CASE.nml]    print BibTeX of dondolo and the paper, and of the sources that a case uses', &
-      & '   dondolo --version            print the version and the build variant for this processor; with --verbose also', &
+      & '   dondolo --version            print the version and build variant for this processor; with --verbose also', &
       & '                                commit, compiler, libraries and processor, for a question or an issue', &
       & '   dondolo --help               print this page', &
       & '', &
