@@ -27,10 +27,10 @@ import dondolo as dd, study
 from dondolo.populations import blocks, store
 warnings.simplefilter("ignore")
 run, put = blocks.Shared.run, store.Store.put
-def tell_run(self, walls, first):
+def tell_run(self, walls, first, interrupts=None):
     print("run", first, len(walls), flush=True)
     tell_run.first = first
-    return run(self, walls, first)
+    return run(self, walls, first, interrupts)
 def tell_put(self, block, rows):
     put(self, block, rows)
     print("kept", tell_run.first, rows, flush=True)

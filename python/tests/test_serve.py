@@ -285,7 +285,7 @@ def test_anchors_that_nobody_has_given(page):
 def test_verdicts_are_the_library_s(page):
     """The page has the verdicts of `check_ntc`, and words for all that there may be, in both languages."""
     words = page.get("/words.js").text
-    assert set(re.findall(r'"verdict\.([\w ]+)": \["', words)) == set(get_args(Verdict))
+    assert set(re.findall(r'"verdict\.([\w ]+)": \[\s*"', words)) == set(get_args(Verdict))
     seen = set()
     weak = TIED["wall"] | {"tie_anchor_force": [2e3]}
     for wall, ag, more in [

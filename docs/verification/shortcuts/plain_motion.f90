@@ -104,7 +104,7 @@ contains
 
       response%collapsed = motion%peak >= scene%limit
       if (.not. (response%collapsed .or. motion%resting .or. shortcut%no_tail)) then
-         call free_motion(mechanism, scene%limit, motion%peak, motion%q, motion%v, tail)
+         call free_motion(mechanism, scene%limit, motion%peak, motion%q, motion%v, mechanism%restitution, tail)
          response%collapsed = tail%collapsed
          motion%peak = max(motion%peak, tail%peak)
       end if

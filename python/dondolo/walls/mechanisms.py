@@ -226,7 +226,7 @@ class OneSidedWall(BlockWall):
         ax : Axes, optional
             Where to draw; a new figure if left out.
         **options
-            As for `plot`.
+            Parts to leave out by False, as for `plot`: see docs/printing.md.
 
         Returns
         -------
@@ -237,6 +237,14 @@ class OneSidedWall(BlockWall):
         ------
         InputError
             A wall without an elevation.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> gable = {"elevation_x": [0.0, 6.0, 6.0, 3.0, 0.0], "elevation_z": [0.0, 0.0, 5.0, 7.0, 5.0]}
+        >>> facade = dd.OneSidedWall(thickness=0.5, density=1900.0, facade_length=6.0, **gable)
+        >>> facade.plot_elevation().get_ylabel()
+        'z [m]'
         """
         from dondolo.figures.options import Options
         from dondolo.walls.drawing_elevation import draw_elevation

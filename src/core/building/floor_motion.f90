@@ -48,10 +48,9 @@ module dondolo_building_floor_motion
       real(wp) :: felt_of_ground(side_by_side) = 0.0_wp
       real(wp), allocatable :: felt_of_u(:, :), felt_of_w(:, :), drift_of_u(:, :)
       !> The ground of a block, from the start of its first step, and displacement and velocity of each oscillator
-      real(wp) :: ground(side_by_side, 0:block) = 0.0_wp
-      real(wp), allocatable :: u(:, :, :), w(:, :, :)
+      real(wp), allocatable :: ground(:, :), u(:, :, :), w(:, :, :)
       !> What walls feel, delta, and the largest |delta| so far
-      real(wp), dimension(side_by_side, block) :: felt = 0.0_wp, delta = 0.0_wp
+      real(wp), allocatable :: felt(:, :), delta(:, :)
       real(wp) :: largest(side_by_side) = 0.0_wp
    end type places_type
 
@@ -198,12 +197,14 @@ contains
 
    end subroutine filter_some
 
-   !> Make room for the oscillators
+   !> Make room for a block and the oscillators, on the heap, for threads may have small stacks
    pure subroutine make_room(places, oscillators, driving)
       type(places_type), intent(inout) :: places
       !> Their number, and that of those which drive the last
       integer, intent(in) :: oscillators, driving
 
+      allocate (places%ground(side_by_side, 0:block), places%felt(side_by_side, block), places%delta(side_by_side, block), &
+         & source=0.0_wp)
       allocate (places%oscillators(oscillators))
       allocate (places%driven_by_u(side_by_side, 2, driving), places%driven_by_w(side_by_side, 2, driving), source=0.0_wp)
       allocate (places%felt_of_u(side_by_side, oscillators), places%felt_of_w(side_by_side, oscillators), &

@@ -3,6 +3,7 @@
 module dondolo_fragility_rounding
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
    use dondolo_building_floors, only : floors_type
    use dondolo_motion_certified, only : not_known
    use dondolo_motion_ensemble, only : ensemble_type, run_ensemble
@@ -16,6 +17,9 @@ module dondolo_fragility_rounding
    private
 
    public :: run_rounded
+
+   !> Memory of a sample [bytes], and how often it is there: the record and its vertical component, moved and joined
+   real(wp), parameter :: bytes_of_sample = 8.0_wp, copies = 4.0_wp
 
 contains
 
@@ -48,6 +52,8 @@ contains
       integer :: i, place
 
       allocate (edp(size(ensemble%record)), source=not_known)
+      call check_room(copies*bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), i=1, size(records))]), error)
+      if (allocated(error)) return
       allocate (moved(size(records)), is_known(size(records)))
       do i = 1, size(records)
          call move_within_rounding(records(i), moved(i), is_known(i))

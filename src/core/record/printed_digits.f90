@@ -45,23 +45,21 @@ contains
       real(wp), intent(in) :: samples(:)
       type(printed_type), intent(out) :: printed
 
+      type(printed_type) :: one
       integer :: i, k, leading, digits
-      logical :: are_decimals
 
+      ! A few digits of g are more digits of m/s2, and the other way round: the fewest are those of the file.
       do k = 1, size(units)
-         printed%digits = 0
-         printed%finest = huge(0)
+         one = printed_type(units(k), 0, huge(0))
          do i = 1, size(samples)
             if (.not. abs(samples(i)) > 0.0_wp) cycle
             call find_digits(abs(samples(i))/units(k), leading, digits)
             if (digits > most_digits) exit
-            printed%digits = max(printed%digits, digits)
-            printed%finest = min(printed%finest, leading - digits + 1)
+            one%digits = max(one%digits, digits)
+            one%finest = min(one%finest, leading - digits + 1)
          end do
-         are_decimals = i > size(samples)
-         if (.not. are_decimals .or. printed%digits < fewest_digits) cycle
-         printed%unit = units(k)
-         return
+         if (i <= size(samples) .or. one%digits < fewest_digits) cycle
+         if (.not. printed%is_known() .or. one%digits < printed%digits) printed = one
       end do
    end subroutine find_printed
 

@@ -81,11 +81,13 @@ contains
       type(elastic_filter_type), intent(inout) :: filters(:)
 
       type(oscillators_type) :: oscillators
-      real(wp), dimension(side_by_side, 0:block_size) :: ground, x, v
+      ! On the heap: threads may have small stacks.
+      real(wp), dimension(:, :), allocatable :: ground, x, v
       integer :: first, k, longest
 
       longest = 0
-      ground = 0.0_wp
+      allocate (ground(side_by_side, 0:block_size), source=0.0_wp)
+      allocate (x(side_by_side, 0:block_size), v(side_by_side, 0:block_size))
       x(:, 0) = 0.0_wp
       v(:, 0) = 0.0_wp
       do k = 1, size(numbers)

@@ -23,9 +23,9 @@ module dondolo_motion_lane_scatter
    !> The ratios of the histories in all lanes
    type :: lane_scatter_type
       !> Ratio of the next impact in each lane
-      real(wp) :: next(lane_width) = 0.0_wp
+      real(wp), allocatable :: next(:)
       !> Where those after it come from
-      type(restitution_scatter_type), private :: lane(lane_width)
+      type(restitution_scatter_type), allocatable, private :: lane(:)
       !> The beginnings of each record as it is, and reversed; made when a history first needs them
       type(beginning_type), allocatable, private :: beginning(:, :)
       type(jumps_type), private :: jumps
@@ -51,7 +51,8 @@ contains
       !> Their number
       integer, intent(in) :: records
 
-      allocate (self%beginning(records, 2))
+      allocate (self%next(lane_width), source=0.0_wp)
+      allocate (self%lane(lane_width), self%beginning(records, 2))
       self%beginning%ratios = mechanism%scatter
       self%jumps = new_jumps()
       self%is_symmetric = mechanism%is_symmetric()

@@ -93,11 +93,13 @@ contains
 
       ! The motion of each lane in units of a step h, and displacements over h**2: u, w = u', q = u''
       type(oscillators_type) :: oscillators
-      real(wp), dimension(lanes, 0:block) :: ground, u, w
+      ! On the heap: threads may have small stacks.
+      real(wp), dimension(:, :), allocatable :: ground, u, w
       real(wp), dimension(lanes) :: damper, spring, curb, high, bend
       real(wp) :: h, q
       integer :: i, k, first, steps, order(lanes)
 
+      allocate (ground(lanes, 0:block), u(lanes, 0:block), w(lanes, 0:block))
       h = record%dt/real(parts, wp)
       damper = 2.0_wp*damping*(2.0_wp*pi*h/periods)
       spring = (2.0_wp*pi*h/periods)**2
