@@ -28,7 +28,6 @@ UNITS = {
     "N/m": Unit("kN/m", 1e-3),
     "N": Unit("kN", 1e-3),
     "year": Unit("years"),
-    "deg": Unit("°"),
     "N m/m": Unit("kNm/m", 1e-3),
     "N m2/m": Unit("kNm²/m", 1e-3),
     "N m": Unit("kNm", 1e-3),
