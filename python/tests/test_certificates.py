@@ -259,6 +259,21 @@ def test_files_of_records_without_printed_digits(few, run, tmp_path):
         assert np.isnan(stripes.edp_rounded[:, 0]).all()
         assert np.array_equal(stripes.edp_rounded[:, 1:], mine.edp_rounded[:, 1:])
         assert stripes.rounding_changes()[1] == 6
+    # Results of earlier builds have no such column.
+    table = tmp_path / "result_histories.csv"
+    lines = table.read_text(encoding="utf-8").splitlines()
+    (head,) = [line for line in lines if "edp_rounded" in line]
+    place = head.split(",").index("edp_rounded")
+    kept = [
+        line if line.startswith("#") else ",".join(cell for i, cell in enumerate(line.split(",")) if i != place)
+        for line in lines
+    ]
+    table.write_text("\n".join(kept) + "\n", encoding="utf-8")
+    run_file = tmp_path / "result_run.json"
+    content = json.loads(run_file.read_text(encoding="utf-8"))
+    content["files"] = [one for one in content["files"] if one["name"] != "_histories.csv"]
+    run_file.write_text(json.dumps(content), encoding="utf-8")
+    assert dd.read_results(tmp_path / "result").stripes.edp_rounded is None
 
 
 def test_the_report_says_what_the_rounding_changes(undecided, tmp_path):

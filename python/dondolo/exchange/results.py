@@ -409,8 +409,10 @@ def _stripes(
             "status": matrix(np.asarray(numbers, dtype=np.int32)),
             "edp_lowest": matrix(table.numbers("edp_lowest")),
             "edp_highest": matrix(table.numbers("edp_highest")),
-            "edp_rounded": matrix(table.given_numbers("edp_rounded")),
         }
+        # Results of earlier builds do not have it.
+        if "edp_rounded" in table:
+            certified["edp_rounded"] = matrix(table.given_numbers("edp_rounded"))
     return Stripes(
         wall=wall,
         im=table.texts("im")[0],
