@@ -36,7 +36,7 @@ def write(tables, root=ROOT, log=runs.FILE):
     replace_between(root / "docs" / "studies" / "performance.md", sections)
     # Within a paragraph, where a mark must not begin a line
     for place in ("README.md", "docs/performance.md"):
-        replace_between(root / place, speeds(results, turns), around="")
+        replace_between(root / place, speeds(results, turns, machine), around="")
 
 
 def replace_between(path, lines, around="\n"):

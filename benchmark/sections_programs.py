@@ -169,8 +169,9 @@ def limits(results, turns):
     return [*lines, "![share of the arithmetic limit by mechanism](../figures/performance_arithmetic.png)", ""]
 
 
-def speeds(results, turns):
+def speeds(results, turns, machine):
     """The speeds of the README, from the same rounds."""
+    processor = machine[0].partition(": ")[2].partition(",")[0].replace("(R)", "")
     first = [each for each in results if each.wall == results[0].wall]
     lanes = references(first)["lanes"]
     mine = next(each for each in first if each.name == lanes[0])
@@ -184,7 +185,8 @@ def speeds(results, turns):
     ]
     median = rounded(Spread.of(times_of(turns, *lanes).values()).median, 3)
     sentence = (
-        f"{mine.histories} time histories of one wall take {median} ms on one core. That is {', '.join(words)}, "
-        "each at its cheapest setting that is accurate enough."
+        f"{mine.histories} time histories of one wall under {mine.accelerograms} accelerograms take {median} ms on one core "
+        f"({processor}, {mine.version.rpartition(' ')[2]}). That is {', '.join(words)}, each at its cheapest setting that "
+        "is accurate enough."
     )
     return paragraph(sentence, indent="  ")[:-1]
