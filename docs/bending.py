@@ -1,6 +1,6 @@
-"""Write the tables of docs/bending.md: DONDOLO_RECORDS=FOLDER python docs/bending.py [--check].
+"""Write tables of docs/bending.md and docs/studies/curves.md: DONDOLO_RECORDS=FOLDER python docs/bending.py [--check].
 
-Medians under the 44 components of italy44.csv. With --check nothing is written, and it fails if the page has other
+Medians under the 44 components of italy44.csv. With --check nothing is written, and it fails if a page has other
 numbers. Some ten seconds on one core.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 
 import dondolo as dd
 
-PAGE = Path(__file__).parent / "bending.md"
+PAGES = tuple(Path(__file__).parent / name for name in ("bending.md", "studies/curves.md"))
 COMMON = {"overburden_inertia": 0.0, "restitution": "sorrentino", "restitution_factor": 0.87}
 # Strips of the table of medians, and their levels in g
 STRIPS = {
@@ -117,7 +117,7 @@ def uncertain(records):
 
 
 def tables(records):
-    """The parts of the page, by name."""
+    """The parts of the pages, by name."""
     return {"loads": strips_by_load(records), "strips": strips_by_period(records), "uncertain": uncertain(records)}
 
 
@@ -125,14 +125,22 @@ def main():
     """Write the tables, or compare them."""
     warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     records = dd.read_catalogue(os.environ["DONDOLO_RECORDS"] + "/italy44.csv")
-    text = PAGE.read_text(encoding="utf-8")
-    made = text
-    for name, lines in tables(records).items():
-        part = f"<!-- {name} -->\n" + "\n".join(lines) + f"\n<!-- end of {name} -->"
-        made = re.sub(f"<!-- {name} -->.*?<!-- end of {name} -->", lambda _, part=part: part, made, flags=re.DOTALL)
-    if "--check" in sys.argv:
-        sys.exit(0 if made == text else "docs/bending.md has other numbers: run docs/bending.py")
-    PAGE.write_text(made, encoding="utf-8")
+    parts, differ, found = tables(records), [], 0
+    for page in PAGES:
+        text = made = page.read_text(encoding="utf-8")
+        for name, lines in parts.items():
+            part = f"<!-- {name} -->\n" + "\n".join(lines) + f"\n<!-- end of {name} -->"
+            pattern = f"<!-- {name} -->.*?<!-- end of {name} -->"
+            made, n = re.subn(pattern, lambda _, part=part: part, made, flags=re.DOTALL)
+            found += n
+        if "--check" not in sys.argv:
+            page.write_text(made, encoding="utf-8")
+        elif made != text:
+            differ.append(page.name)
+    if found != len(parts):
+        sys.exit(f"{found} of {len(parts)} parts are in the pages")
+    if differ:
+        sys.exit(f"other numbers in {', '.join(differ)}: run docs/bending.py")
 
 
 if __name__ == "__main__":

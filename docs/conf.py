@@ -13,7 +13,7 @@ author = copyright = "the dondolo contributors"
 version = release = dd.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc"]
-extensions += ["sphinx_copybutton", "sphinx_design"]
+extensions += ["sphinx_copybutton", "sphinx_design", "site_math"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 exclude_patterns = ["verification/**", "site/**"]
 templates_path = ["site/templates"]
@@ -21,6 +21,8 @@ templates_path = ["site/templates"]
 # As GitHub shows the same pages
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
 myst_heading_anchors = 4
+myst_fence_as_directive = ["math"]
+html_math_renderer = "mathml"
 
 autosummary_generate = True
 autodoc_typehints = "none"

@@ -1,4 +1,4 @@
-"""Measure what docs/loads.md says: DONDOLO_RECORDS=FOLDER python docs/loads.py."""
+"""Measure what docs/studies/curves.md says of loads: DONDOLO_RECORDS=FOLDER python docs/loads.py."""
 
 import os
 

@@ -1,6 +1,6 @@
-"""docs/openquake.md, run word for word: its commands and scripts, and its table of numbers beside the engine's.
+"""docs/openquake.md, run word for word: its commands and scripts; and the table of docs/studies/openquake.md.
 
-Usage: docs/openquake_page.py ENGINE [--quick], the folder of the engine's environment. With --quick the page stays as
+Usage: docs/openquake_page.py ENGINE [--quick], the folder of the engine's environment. With --quick the study stays as
 it is, the table goes into out/openquake/numbers.md, and the runs of many levels and of 10 000 assets are left out.
 """
 
@@ -22,6 +22,7 @@ from dondolo.exchange.openquake_job import _write_exposure
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs/openquake.md"
+STUDY = ROOT / "docs/studies/openquake.md"
 OUT = ROOT / "out/openquake"
 RATIOS = {"edp_0p1": 0.05, "edp_0p4": 0.2, "collapse": 1.0}
 MEDIAN, DISPERSION = 0.3, 0.6
@@ -204,9 +205,9 @@ def main():
     if quick:
         (OUT / "numbers.md").write_text("".join(lines), encoding="utf-8")
         return
-    head, _, rest = PAGE.read_text(encoding="utf-8").partition(MARKS[0])
+    head, _, rest = STUDY.read_text(encoding="utf-8").partition(MARKS[0])
     tail = rest.partition(MARKS[1])[2]
-    PAGE.write_text("".join([head, MARKS[0], *lines, MARKS[1], tail]), encoding="utf-8")
+    STUDY.write_text("".join([head, MARKS[0], *lines, MARKS[1], tail]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The picture of docs/architecture.md: the rooms of the library and what each imports, read from the sources."""
+"""The picture of docs/developing/architecture.md: the rooms of the library and what each imports, read from sources."""
 
 import re
 from collections import Counter

@@ -333,7 +333,7 @@ def test_populations(root, executable, tmp_path):
 
 
 def of_facade(*ties):
-    """The facade of docs/cases_by_hand.md."""
+    """The facade of docs/studies/cases_by_hand.md."""
     return dd.OneSidedWall(
         sections=[dd.Section(3.8, 0.70), dd.Section(3.4, 0.55)],
         density=2000.0,

@@ -277,7 +277,7 @@ def test_texts_have_the_line_ends_of_their_checksums(root):
 
 def test_rooms_are_documented(root):
     """The map of the sources names every room."""
-    page = (root / "docs/architecture.md").read_text()
+    page = (root / "docs/developing/architecture.md").read_text()
     folders = [path for path in root.glob("src/*/*") if path.is_dir()]
     folders += [path for path in root.glob("src/*/*/*") if path.is_dir()]
     folders += [path for path in root.glob("python/dondolo/*") if path.is_dir() and not path.name.startswith("__")]

@@ -305,7 +305,7 @@ def test_signals_end_a_run_in_order(executable, folder, root, number):
 
 
 def test_all_files_are_written_by_one_layer(root):
-    """Whole or not at all: Python through parts, Fortran through the writer; docs/architecture.md says so."""
+    """Whole or not at all: Python through parts, Fortran through the writer; docs/developing/architecture.md."""
     writing = re.compile(r"""\.write_(?:text|bytes)\(|\bopen\([^)]*["'][wax]""")
     for path in (root / "python/dondolo").rglob("*.py"):
         for line in filter(writing.search, path.read_text().splitlines()):
