@@ -185,8 +185,8 @@ def speeds(results, turns, machine):
     ]
     median = rounded(Spread.of(times_of(turns, *lanes).values()).median, 3)
     sentence = (
-        f"{mine.histories} time histories of one wall under {mine.accelerograms} accelerograms take {median} ms on one core "
-        f"({processor}, {mine.version.rpartition(' ')[2]}). That is {', '.join(words)}, each at its cheapest setting that "
-        "is accurate enough."
+        f"{mine.histories} time histories of one wall under {mine.accelerograms} accelerograms take {median} ms on one "
+        f"core ({processor}, {mine.version.rpartition(' ')[2]}). That is {', '.join(words)}, each at its cheapest "
+        "setting that is accurate enough."
     )
     return paragraph(sentence, indent="  ")[:-1]
