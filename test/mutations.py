@@ -1,8 +1,9 @@
 """Mutation checks of the statistics: python test/mutations.py [--quick] [WORD]...
 
-Each edit makes one formula, one unit or one word wrong, and the test named with it must then fail. Python is edited in
-a copy of the installed package. Of a Fortran source a copy is edited, compiled against the modules of the build and
-linked before its library: into the Fortran test, or for a test of pytest into the extension module of a copied package.
+Each edit makes one formula, one unit or one word wrong, and the test named with it must then fail. Python, templates
+and JavaScript are edited in a copy of the installed package, and the Italian catalogue compiled into it. Of a Fortran
+source a copy is edited, compiled against the modules of the build and linked before its library: into the Fortran test,
+or for a test of pytest into the extension module of a copied package.
 Given words, check only the edits that contain all of them; with --quick, only the first of each file.
 
 Prints one line for each edit. Fails if an edit survives, if its text does not occur exactly once, or if a test fails
@@ -10,6 +11,7 @@ without any edit; the last line gives the reason.
 """
 
 import importlib.util
+import io
 import json
 import os
 import shlex
@@ -18,11 +20,13 @@ import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 TESTS = ROOT / "python" / "tests"
+CATALOGUES = ROOT / "python/dondolo/reporting/locale"
 
 # Time limit of one test run [s]; ample for a busy machine
 LONGEST = 1800
@@ -470,8 +474,8 @@ EDITS = [
     ),
     Edit(
         "a nearly flat curve is called a curve in Italian",
-        '"nearly_flat": "pendenza non significativa: parametri non affidabili"',
-        '"nearly_flat": "curva determinata"',
+        'msgid "nearly_flat"\nmsgstr "pendenza non significativa: parametri non affidabili"',
+        'msgid "nearly_flat"\nmsgstr "curva determinata"',
         "test_shown_truths.py::test_statuses_by_their_keys",
     ),
     Edit(
@@ -654,8 +658,8 @@ EDITS = [
     ),
     Edit(
         "thrusts are called loads in Italian",
-        '"thrust": "spinta",\n    "tie"',
-        '"thrust": "carico",\n    "tie"',
+        'msgctxt "item"\nmsgid "thrust"\nmsgstr "spinta"',
+        'msgctxt "item"\nmsgid "thrust"\nmsgstr "carico"',
         "test_shown_truths.py::test_words_of_cells_by_their_keys",
     ),
     Edit(
@@ -666,14 +670,14 @@ EDITS = [
     ),
     Edit(
         "nonlinear checks are called linear in Italian workbooks",
-        '"nonlinear": "non lineare"',
-        '"nonlinear": "lineare"',
+        'msgctxt "method"\nmsgid "nonlinear"\nmsgstr "non lineare"',
+        'msgctxt "method"\nmsgid "nonlinear"\nmsgstr "lineare"',
         "test_shown_truths.py::test_words_of_cells_by_their_keys",
     ),
     Edit(
         "the ratio of SLV is headed SLD",
-        '"linear_slv_ratio": "capacità/domanda, SLV lineare"',
-        '"linear_slv_ratio": "capacità/domanda, SLD lineare"',
+        'msgid "linear_slv_ratio"\nmsgstr "capacità/domanda, SLV lineare"',
+        'msgid "linear_slv_ratio"\nmsgstr "capacità/domanda, SLD lineare"',
         "test_shown_truths.py::test_heads_of_a_sheet_mean_what_its_quantities_mean",
     ),
     Edit(
@@ -744,11 +748,25 @@ def is_fortran(edit: Edit) -> bool:
     return edit.in_library or edit.test.endswith(".f90")
 
 
+def is_translation(edit: Edit) -> bool:
+    """Is it the Italian of something?"""
+    return edit.old.startswith("msg")
+
+
 def places(edit: Edit, package: Path) -> list[str]:
     """Files of the package, or of the library, in which the text of an edit occurs, once for each occurrence."""
-    folder, pattern = (ROOT / "src", "*.f90") if is_fortran(edit) else (package, "*.py")
-    sources = {path: path.read_text(encoding="utf-8") for path in sorted(folder.rglob(pattern))}
+    folder, suffixes = (ROOT / "src", (".f90",)) if is_fortran(edit) else (package, (".py", ".js", ".j2"))
+    if is_translation(edit):
+        folder, suffixes = CATALOGUES, (".po",)
+    sources = texts_in(folder, suffixes)
     return [str(path.relative_to(folder)) for path, text in sources.items() for _ in range(text.count(edit.old))]
+
+
+@cache
+def texts_in(folder: Path, suffixes: tuple[str, ...]) -> dict[Path, str]:
+    """Texts of the sources in a folder."""
+    found = sorted(path for path in folder.rglob("*") if path.suffix in suffixes)
+    return {path: path.read_text(encoding="utf-8") for path in found}
 
 
 def stale(package: Path) -> list[str]:
@@ -815,6 +833,17 @@ def link_extension(edit: Edit, package: Path) -> None:
         run_compiler([*words[:at], str(package / "_fortran" / target.name), str(made), *words[at + 1 :]], build)
 
 
+def compile_catalogue(edit: Edit, package: Path) -> None:
+    """Put a catalogue with an edit into a copied package."""
+    from babel.messages.mofile import write_mo
+    from babel.messages.pofile import read_po
+
+    source = CATALOGUES / places(edit, package)[0]
+    wrong = source.read_text(encoding="utf-8").replace(edit.old, edit.new)
+    with (package / "reporting/locale" / source.with_suffix(".mo").name).open("wb") as made:
+        write_mo(made, read_po(io.StringIO(wrong)))
+
+
 def run_compiler(command: list[str | Path], folder: Path) -> None:
     """Compile or link."""
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
@@ -851,6 +880,8 @@ def check(edit: Edit, package: Path) -> str:
                 copied = copy_of(package, Path(name))
                 if edit.in_library:
                     link_extension(edit, copied)
+                elif is_translation(edit):
+                    compile_catalogue(edit, copied)
                 else:
                     place = copied / places(edit, package)[0]
                     place.write_text(place.read_text(encoding="utf-8").replace(edit.old, edit.new), encoding="utf-8")

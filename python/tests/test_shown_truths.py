@@ -18,10 +18,10 @@ import pytest
 
 import dondolo as dd
 from dondolo.checks.plots import check_name
-from dondolo.reporting import columns, headings, numerals, properties_it, run, statuses
+from dondolo.reporting import columns, numerals, run, statuses, words
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione import outcome, project, terms
+from dondolo.reporting.relazione import outcome, project
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.subjects import Subject, Subjects
 from dondolo.reporting.risk import risk_facts
@@ -29,6 +29,8 @@ from dondolo.reporting.units import CENTIMETRES, UNITS
 from dondolo.reporting.wall import numbers as numbers_of_a_wall
 from dondolo.reporting.wall import summary
 from dondolo.serve.pictures import picture
+
+ITALIAN = Language("it")
 
 # --- Numbers
 
@@ -147,12 +149,12 @@ def test_heads_of_columns_have_their_units():
 
 
 def test_italian_heads_have_the_units_of_the_names():
-    for ending in headings.UNITS:
-        words = next(iter(headings.COLUMNS))
-        found = re.fullmatch(r".+ \[(.+)\]", headings.heading(f"{words}{ending}"))
+    for ending in words.UNITS:
+        with ITALIAN.in_force():
+            found = re.fullmatch(r".+ \[(.+)\]", words.heading(f"wall{ending}"))
         assert found[1].replace("²", "2").replace("³", "3").replace("°", "deg") == unit_of_ending(ending), ending
     # The longest ending first, or part of a unit is taken for a word
-    names = list(headings.UNITS)
+    names = list(words.UNITS)
     assert all(not two.endswith(one) for place, one in enumerate(names) for two in names[place + 1 :])
 
 
@@ -168,7 +170,9 @@ def test_italian_heads_have_the_units_of_the_names():
     ],
 )
 def test_italian_heads_of_parts(name, head):
-    assert headings.heading(name) == head
+    with ITALIAN.in_force():
+        assert words.heading(name) == head
+    assert words.heading(name) == name
 
 
 # --- Words by their keys
@@ -184,19 +188,18 @@ FITTED = ("ok", "extrapolated", "nearly_flat")
 
 def test_statuses_by_their_keys():
     """In all vocabularies: a status that has no curve says so, and no other does."""
-    assert set(statuses.STATUSES) == set(statuses.FITS) == set(SAYS)
-    for name, words in SAYS.items():
-        assert [key for key, text in statuses.FITS.items() if words in text] == [name]
-        assert terms.status(Language("it"), name) == statuses.FITS[name]
-        assert headings.in_words("status", name) == statuses.FITS[name]
-        assert ("nessuna curva" in statuses.FITS[name]) == (name not in FITTED)
+    italian = ITALIAN.all_named("status")
+    assert set(statuses.STATUSES) == set(italian) == set(SAYS)
+    for name, said in SAYS.items():
+        assert [key for key, text in italian.items() if said in text] == [name]
+        assert ("nessuna curva" in italian[name]) == (name not in FITTED)
         assert ("a curve" in statuses.STATUSES[name]) == (name in FITTED)
-    short = {"ok": "valida", "no_collapse": "nessun collasso", "all_collapse": "tutt"}
-    with Language("it").in_force():
-        for name, words in short.items():
-            assert statuses.status_meaning(name) == statuses.FITS[name]
-            if name != "ok":
-                assert words in statuses.short_status(name), name
+        assert statuses.status_meaning(name) == statuses.STATUSES[name]
+        with ITALIAN.in_force():
+            assert words.in_words("status", name) == statuses.status_meaning(name) == italian[name]
+    with ITALIAN.in_force():
+        for name, said in {"no_collapse": "nessun collasso", "all_collapse": "tutt"}.items():
+            assert said in statuses.short_status(name), name
 
 
 PAIRS = {
@@ -206,6 +209,7 @@ PAIRS = {
     ("method", "tie"): "catena", ("polarity", "as_recorded"): "come registrato", ("polarity", "reversed"): "invertito",
     ("errors", "clustered"): "per terremoto", ("errors", "naive"): "indipendenti", ("errors", "none"): "nessuno",
     ("expression", "where ties break"): "catene", ("expression", "where a seat is lost"): "appoggio",
+    ("occurrence", "exclusive"): "esclusivi", ("occurrence", "independent"): "indipendenti",
     ("load_inertia", "both"): "orizzontale e verticale", ("load_inertia", "vertical"): "verticale",
     ("load_inertia", "none"): "nessuna", ("item", "tie 2"): "catena 2", ("item", "load 1"): "carico 1",
     ("item", "thrust 3"): "spinta 3", ("item", "section 1"): "tratto 1", ("item", "lower block"): "inferiore",
@@ -215,17 +219,19 @@ PAIRS = {
 
 @pytest.mark.parametrize(("column", "value"), PAIRS)
 def test_words_of_cells_by_their_keys(column, value):
-    assert PAIRS[column, value] in headings.in_words(column, value)
+    with ITALIAN.in_force():
+        found = words.in_words(column, value)
+    assert PAIRS[column, value] in found
     if column == "method" and value == "linear":
-        assert not headings.in_words(column, value).startswith("non")
+        assert not found.startswith("non")
 
 
 def test_forces_in_italian_warnings_are_in_the_unit_that_they_say():
     numbers = {"anchor_force_per_m": 12340.0, "bar_force_per_m": 45670.0}
     told = dd.errors.DondoloWarning("sentence", "anchor_before_bar", {"item": "tie 2"}, numbers)
-    words = terms.warning(Language("it"), told)
-    assert re.search(r"catena 2 cede a 12,34\s+kN/m, .* 45,67\s+kN/m", words), words
-    for code, text in terms.WARNINGS.items():
+    said = words.warning(ITALIAN, told)
+    assert re.search(r"catena 2 cede a 12,34\s+kN/m, .* 45,67\s+kN/m", said), said
+    for code, text in ITALIAN.all_named("warning").items():
         for name, unit in re.findall(r"\{(\w*_force\w*)\}\s+(\S+?)[,;. ]", text):
             assert unit == ("kN/m" if name.endswith("_per_m") else "kN"), code
 
@@ -267,34 +273,35 @@ def stems(text):
 
 
 def test_heads_of_properties_mean_what_the_properties_mean():
-    """Two vocabularies word a property from a stem that both have."""
+    """Heads and meanings word a property from a stem that both have."""
+    heads, meanings = (ITALIAN.all_named(what) for what in ("head of a column", "property of a case"))
     apart = {"alpha", "capacity", "hinge", "level", "side", "mechanism", "load_inertia", "hinge_depth", "histories",
              "restitution", "restitution_value", "thrust", "tie_depth"}  # fmt: skip
-    both = [name for name in headings.COLUMNS if name in properties_it.MEANINGS and name not in apart]
+    both = [name for name in heads if name in meanings and name not in apart]
     assert len(both) > 40
     for name in both:
-        own = stems(headings.COLUMNS[name])
-        assert own & stems(properties_it.MEANINGS[name]), (name, headings.COLUMNS[name], properties_it.MEANINGS[name])
+        assert stems(heads[name]) & stems(meanings[name]), (name, heads[name], meanings[name])
 
 
 def test_heads_of_a_sheet_mean_what_its_quantities_mean():
     """Symbols and words of the columns of checks of many walls are those of the sheet of one."""
+    heads, meanings = (ITALIAN.all_named(what) for what in ("head of a column", "quantity of a check"))
     for name in ("mass_ratio",):
-        assert stems(headings.COLUMNS[name]) & stems(terms.MEANINGS[name]), name
+        assert stems(heads[name]) & stems(meanings[name]), name
     ends = {"linear_sld": ("SLD", "lineare"), "linear_slv": ("SLV", "lineare"), "nonlinear_slv": ("SLV", "non lineare"),
             "nonlinear_slc": ("SLC", "non lineare")}  # fmt: skip
     for name, (state, method) in ends.items():
-        assert headings.COLUMNS[name] == f"capacità a_g S, {state} {method}"
-        assert headings.COLUMNS[f"{name}_ratio"] == f"capacità/domanda, {state} {method}"
+        assert heads[name] == f"capacità a_g S, {state} {method}"
+        assert heads[f"{name}_ratio"] == f"capacità/domanda, {state} {method}"
     for name in ("theta", "beta", "ratio", "first", "total"):
         for end, word in (("low", "inizio"), ("high", "fine")):
-            text = headings.COLUMNS[f"{name}_{end}"]
+            text = heads[f"{name}_{end}"]
             assert word in text, name
     for share in (16, 50, 84):
-        assert str(share) in headings.COLUMNS[f"fractile_{share}"]
+        assert str(share) in heads[f"fractile_{share}"]
     for name in ("value", "theta"):
         for share in (5, 95):
-            assert f"{share} %" in headings.COLUMNS[f"{name}_{share}"]
+            assert f"{share} %" in heads[f"{name}_{share}"]
 
 
 # --- Columns of reports
@@ -555,7 +562,7 @@ def test_every_number_of_the_page_is_the_library_s(lang, root):
         curve = stripes.fit()
         check = dd.check_ntc(wall, case.site, knowledge_factor=case.knowledge_factor)
     assert (answer["theta"], answer["beta"], answer["status"]) == (curve.theta, curve.beta, curve.status)
-    assert answer["sentence"] == terms.status(Language(lang), curve.status)
+    assert answer["sentence"] == Language(lang).named("status", curve.status, statuses.STATUSES[curve.status])
     assert answer["interval"] == list(curve.parameter_interval()["theta"])
     assert answer["p"] == curve(np.array(answer["x"])).tolist()
     low, high = curve.interval(answer["x"][1:])
@@ -583,7 +590,7 @@ def test_every_number_of_the_page_is_the_library_s(lang, root):
             assert verdict == "not applicable"
         else:
             assert verdict == ("verified if its ties are" if holds else "not verified")
-    assert found["notes"] == [terms.warning(Language(lang), note) for note in check.notes]
+    assert found["notes"] == [words.warning(Language(lang), note) for note in check.notes]
 
 
 # --- What a calculation report says of the code
@@ -622,3 +629,61 @@ def two_states(lang):
     made = [dd.check_ntc(wall, site) for wall in walls]
     subjects = Subjects(tuple(Subject(check.wall, check, None, None) for check in made))
     return Document(Language(lang), project.Project(), subjects), made
+
+
+# --- Words of the page
+
+
+def test_labels_of_the_page_mean_what_the_properties_mean(root):
+    """In both languages a label has a word of the meaning of its property, or of its name or head."""
+    from dondolo._fortran.library import properties
+
+    page = (root / "python/dondolo/serve/page/words.js").read_text()
+    english = dict(re.findall(r'^  (\w+): "(.*)",$', page.partition("const LABELS")[2], re.M))
+    rows = [
+        row
+        for group in ("job", "wall", "building", "records", "stripes", "solver", "check")
+        for row in properties(group)
+    ]
+    italian, heads, meanings = (
+        ITALIAN.all_named(what) for what in ("label of the page", "head of a column", "property of a case")
+    )
+    # Symbols, and labels that say it in other words
+    apart = {"section_offset", "load_x", "inertia_x", "thrust_x", "polarity", "ag", "f0", "tc_star"}
+    apart_in_italian = {"title", "thrust_decay", "masonry_knowledge_factor", "table", "weight", "sides", "catalogue",
+                        "certify", "soil"}  # fmt: skip
+    assert {row.name for row in rows} == set(english)
+    for row in rows:
+        name = row.name
+        if name in italian and name not in apart_in_italian:
+            assert stems(italian[name]) & stems(f"{meanings[name]} {heads.get(name, '')}"), (name, italian[name])
+        if name not in apart:
+            assert stems(english[name]) & stems(f"{row.meaning} {name.replace('_', ' ')}"), (name, english[name])
+
+
+# What the Italian of a bound, and of a size of the wall, must say
+BOUNDS = {
+    "at least": "almeno", "at most": "al più", "more than 0": "maggiore di 0", "less than": "minore di",
+    "positive": "positivo", "within height": "altezza", "within depth": "facce",
+}  # fmt: skip
+
+
+def test_refusals_say_their_bounds():
+    found = ITALIAN.all_named("refusal of the page")
+    for name, said in BOUNDS.items():
+        assert [one for one in BOUNDS if said in found[one]] == [name]
+    assert all("{h}" in text for text in found.values() if "altezza della parete, {" in text)
+    assert all(
+        "{t}" in text for text in found.values() if "spessore, {" in text or "facce della parete, da 0 a {" in text
+    )
+
+
+def test_places_of_italian_warnings_are_in_order():
+    """From the first to the last, from the lower to the upper, from what is said of all to what is said of some."""
+    pairs = [("first_level", "last_level"), ("shortest_s", "longest_s"), ("less_sld", "tied_sld"),
+             ("records_beyond", "records"), ("histories_beyond", "histories"), ("curves", "of_curves"),
+             ("factors_beyond", "factors")]  # fmt: skip
+    for code, text in ITALIAN.all_named("warning").items():
+        for first, last in pairs:
+            if f"{{{first}}}" in text and f"{{{last}}}" in text:
+                assert text.index(f"{{{first}}}") < text.index(f"{{{last}}}"), (code, first, last)
