@@ -681,6 +681,43 @@ EDITS = [
         "test_shown_truths.py::test_heads_of_a_sheet_mean_what_its_quantities_mean",
     ),
     Edit(
+        "the page calls the depth of a tie its height in Italian",
+        'msgctxt "label of the page"\nmsgid "tie_depth"\nmsgstr "… dal filo esterno"',
+        'msgctxt "label of the page"\nmsgid "tie_depth"\nmsgstr "… quota"',
+        "test_shown_truths.py::test_labels_of_the_page_mean_what_the_properties_mean",
+    ),
+    Edit(
+        "the page calls the yield stress of ties their modulus",
+        'tie_strength: "Yield stress"',
+        'tie_strength: "Modulus"',
+        "test_shown_truths.py::test_labels_of_the_page_mean_what_the_properties_mean",
+    ),
+    Edit(
+        "the page refuses a number below its least as one above its most",
+        'msgid "at least"\nmsgstr "almeno {x}"',
+        'msgid "at least"\nmsgstr "al più {x}"',
+        "test_shown_truths.py::test_refusals_say_their_bounds",
+    ),
+    Edit(
+        "the ends of the levels are exchanged in an Italian warning",
+        "mediana della curva di fragilità {theta}, fuori dai livelli da {first_level} a {last_level}",
+        "mediana della curva di fragilità {theta}, fuori dai livelli da {last_level} a {first_level}",
+        "test_shown_truths.py::test_places_of_italian_warnings_are_in_order",
+    ),
+    Edit(
+        "exclusive mechanisms are called independent in Italian",
+        'msgid "exclusive"\nmsgstr "esclusivi"',
+        'msgid "exclusive"\nmsgstr "indipendenti"',
+        "test_shown_truths.py::test_words_of_cells_by_their_keys",
+    ),
+    Edit(
+        "the ground that governs a floor has the acceleration of its modes",
+        "numbers = 'max('//trim(shown(modal))//', '//trim(shown(ground))//')'",
+        "numbers = 'max('//trim(shown(modal))//', '//trim(shown(modal))//')'",
+        "test_truths.py::test_every_number_of_a_sheet_follows_from_its_symbols",
+        in_library=True,
+    ),
+    Edit(
         "bands have another confidence than their labels",
         "fragility.interval(grid, confidence=confidence)",
         "fragility.interval(grid)",
@@ -750,7 +787,7 @@ def is_fortran(edit: Edit) -> bool:
 
 def is_translation(edit: Edit) -> bool:
     """Is it the Italian of something?"""
-    return edit.old.startswith("msg")
+    return edit.old in texts_in(CATALOGUES, (".po",))[CATALOGUES / "it.po"]
 
 
 def places(edit: Edit, package: Path) -> list[str]:

@@ -7,6 +7,7 @@ import html
 import re
 import statistics
 import warnings
+from pathlib import Path
 
 import matplotlib
 
@@ -634,11 +635,11 @@ def two_states(lang):
 # --- Words of the page
 
 
-def test_labels_of_the_page_mean_what_the_properties_mean(root):
+def test_labels_of_the_page_mean_what_the_properties_mean():
     """In both languages a label has a word of the meaning of its property, or of its name or head."""
     from dondolo._fortran.library import properties
 
-    page = (root / "python/dondolo/serve/page/words.js").read_text()
+    page = (Path(dd.__file__).parent / "serve/page/words.js").read_text()
     english = dict(re.findall(r'^  (\w+): "(.*)",$', page.partition("const LABELS")[2], re.M))
     rows = [
         row
