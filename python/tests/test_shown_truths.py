@@ -3,7 +3,9 @@
 Units are computed from their names, and words are compared by their keys, so that no exchange goes unseen.
 """
 
+import dataclasses
 import html
+import math
 import re
 import statistics
 import warnings
@@ -19,10 +21,11 @@ import pytest
 
 import dondolo as dd
 from dondolo.checks.plots import check_name
-from dondolo.reporting import columns, numerals, run, statuses, words
+from dondolo.reporting import columns, numerals, run, statuses, typology, words
+from dondolo.reporting import wall as wall_facts
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione import outcome, project
+from dondolo.reporting.relazione import outcome, project, site_grid
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.subjects import Subject, Subjects
 from dondolo.reporting.risk import risk_facts
@@ -334,6 +337,7 @@ def tables_of(path):
 
 def to_number(text):
     text = text.replace("\N{MINUS SIGN}", "-").replace("\N{NARROW NO-BREAK SPACE}", "").replace(",", ".")
+    text = text.replace("∞", "inf")
     return float("nan") if text in ("\N{EN DASH}", "") else float(text)
 
 
@@ -688,3 +692,150 @@ def test_places_of_italian_warnings_are_in_order():
         for first, last in pairs:
             if f"{{{first}}}" in text and f"{{{last}}}" in text:
                 assert text.index(f"{{{first}}}") < text.index(f"{{{last}}}"), (code, first, last)
+
+
+# --- Numbers of reports
+
+
+@pytest.fixture(scope="module")
+def judged(wall, few):
+    """A wall under a few records, whose histories are certified, with its hazard."""
+    levels = np.geomspace(0.02, 2.0, 10)
+    hazard = dd.HazardCurve(
+        levels, 1e-4 * levels**-2.2, fractiles={0.16: 5e-5 * levels**-2.2, 0.84: 2e-4 * levels**-2.2}
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        stripes = dd.multiple_stripe(wall, few, [0.3, 0.5, 0.7, 0.9, 1.2], certify=True, progress=False)
+        return stripes, stripes.fit(), hazard
+
+
+def column_of(table, head):
+    """Cells of a column of a report's table, as text."""
+    (cells,) = [column.cells for column in table.columns if texts(column.head) == head]
+    return [texts(one) for one in cells]
+
+
+def numbers_in(text):
+    return [to_number(one) for one in re.findall(r"\d+(?:\.\d+)?", text)]
+
+
+def test_what_is_said_of_a_wall_is_of_its_curve(judged):
+    """Cards and intervals, each beside what the library has."""
+    stripes, curve, _hazard = judged
+    cards = {texts(name): (texts(value), texts(note)) for name, value, note in summary(stripes, curve)["cards"]}
+    for name, value, error in (("median", curve.theta, curve.se_ln_theta), ("dispersion", curve.beta, curve.se_beta)):
+        (found,) = [card for head, card in cards.items() if head.startswith(name)]
+        assert [numbers_in(part)[-1 if place else 0] for place, part in enumerate(found)] == pytest.approx(
+            [value, error], rel=5e-3
+        )
+    intervals = wall_facts.uncertainty(curve)["intervals"]
+    for name, letter in (("theta", "θ"), ("beta", "β")):
+        for place, end in enumerate(("from", "to")):
+            shown = column_of(intervals, f"{letter} {end}")
+            assert to_number(shown[0]) == pytest.approx(curve.parameter_interval()[name][place], rel=5e-4)
+
+
+def test_what_is_said_of_the_risk_is_the_hazard_s(judged):
+    stripes, curve, hazard = judged
+    facts, _found = risk_facts(run.run_of(stripes), hazard, Language("en"))
+    table, risk = facts["deaggregation"], curve.risk(hazard)
+    ends = [[to_number(one) for one in column_of(table, head)] for head in ("pga from [g]", "to [g]")]
+    assert ends[0] == pytest.approx(hazard.levels[:-1], rel=5e-4)
+    assert ends[1] == pytest.approx(hazard.levels[1:], rel=5e-4)
+    exceeded = [read(one)[0] for one in next(one.cells for one in table.columns if "exceeded" in texts(one.head))]
+    assert exceeded == pytest.approx(hazard.annual_frequency[:-1], rel=5e-3)
+    for name in ("above", "below"):
+        assert [read(one)[0] for one in facts[name]] == pytest.approx(getattr(risk, name), rel=5e-3)
+
+
+NUMBER = r"\d+(?:\.\d+)?(?: \N{MULTIPLICATION SIGN} 10\N{MINUS SIGN}?\d+)?"
+
+
+def in_figures(text):
+    """A number of a page, perhaps with a power of ten."""
+    digits, _, power = text.replace("\N{MINUS SIGN}", "-").partition(" \N{MULTIPLICATION SIGN} 10")
+    return float(digits) * 10.0 ** float(power or 0)
+
+
+def test_ranges_of_reports_ascend(judged, population, tmp_path):
+    """Of every sentence and cell 'between a and b' and 'a to b', and of every pair of columns 'from' and 'to'."""
+    stripes, _curve, hazard = judged
+    found = 0
+    for name, results in (("wall", stripes), ("people", population)):
+        path = tmp_path / f"{name}.html"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            dd.report(results, path, hazard=hazard)
+        page = re.sub(r"<style>.*?</style>|<pre>.*?</pre>", "", path.read_text(), flags=re.S)
+        text = " ".join(html.unescape(re.sub(r"</?t[dhr][^>]*>", " | ", page)).split())
+        text = re.sub(r"<[^>]*>", "", text)
+        for between in (
+            rf"\b(?:between|from) ({NUMBER})[\w ]{{0,4}} (?:and|to) ({NUMBER})",
+            rf"({NUMBER}) to ({NUMBER})",
+        ):
+            for low, high in re.findall(between, text):
+                found += 1
+                assert in_figures(low) <= in_figures(high), (low, high)
+        for caption, table in tables_of(path).items():
+            for head in [one for one in table if one == "from" or one.endswith(" from")]:
+                other = head.removesuffix("from") + "to"
+                for low, high in zip(table[head], table.get(other, []), strict=False):
+                    found += 1
+                    assert not to_number(low) > to_number(high), (caption, head)
+    assert found > 20
+
+
+def test_histories_that_are_not_computable_widen_bounds(judged):
+    """Fractions and medians of certified histories are between those of none and of all of them."""
+    stripes, curve, _hazard = judged
+    lowest, highest, status = stripes.edp.copy(), stripes.edp.copy(), stripes.status.copy()
+    doubtful = np.flatnonzero(~stripes.collapsed[2])[:4]
+    highest[2, doubtful], status[2, doubtful] = 1.0, dd.results.Certified.NOT_COMPUTABLE
+    bounded = dataclasses.replace(stripes, edp_lowest=lowest, edp_highest=highest, status=status)
+    ends = bounded.exceedance_bounds(1.0)
+    assert np.any(ends[0] < ends[1])
+    told = wall_facts.certificates(bounded, [curve], "separate")
+    (cells,) = [one.cells for one in told["levels"].columns if "fraction" in texts(one.head)]
+    for cell, low, high, n in zip(cells, *ends, bounded.histories, strict=True):
+        assert numbers_in(texts(cell)) == pytest.approx([low / n] if low == high else [low / n, high / n], abs=1e-4)
+    ((low, high),) = bounded.state_bounds([1.0], states="separate")
+    for name, value in (("lowest", low), ("greatest", high)):
+        (cells,) = [one.cells for one in told["medians"].columns if name in texts(one.head)]
+        assert to_number(texts(cells[0])) == pytest.approx(value, rel=5e-4)
+
+
+def test_shares_of_a_population_are_those_at_their_levels(population):
+    facts = typology.summary(population)
+    assert len(facts["shares"]) > 1
+    curve = dict(zip((f"{level:g}" for level in population.levels), population["all"].mean_curve, strict=True))
+    for share, level in facts["shares"]:
+        expected = curve[texts(level).removesuffix(" g")]
+        assert texts(share) == texts(numerals.percent(expected))
+
+
+def test_curves_of_a_calculation_report(judged):
+    """Median, its interval, dispersion and the probability at a_g S of the ultimate state."""
+    _stripes, curve, _hazard = judged
+    check = dd.check_ntc(dd.OneSidedWall(5.0, 0.45), dd.Site((0.3, 0.6, 0.8), 2.45, 0.33, soil="C"))
+    document = Document(Language("en"), project.Project(), Subjects((Subject(check.wall, check, curve, None),)))
+    (table,) = [block.table for block in outcome.fragility(document) if hasattr(block, "table")]
+    low, high = curve.parameter_interval()["theta"]
+    expected = {
+        "median θ [g]": curve.theta, "95 % interval from": low, "to": high, "dispersion β": curve.beta,
+        "probability at ag S": float(curve(check.pga)),
+    }  # fmt: skip
+    for head, value in expected.items():
+        (cell,) = next(one.cells for one in table.columns if document.language.plain(one.head).replace("_", "") == head)
+        assert to_number(cell.text) == pytest.approx(value, rel=1e-3), head
+
+
+def test_nodes_of_a_site_are_where_their_distances_say():
+    """On a sphere, to 1 %: latitudes are no longitudes, and places are those of the datum of the grid."""
+    site = dd.Site(latitude=42.35, longitude=13.4, nominal_life=50)
+    mesh = site.hazard.mesh
+    columns = site_grid._nodes(Document(Language("en"), project.Project(), None), mesh)
+    numbers = [[to_number(one.text) for one in cells] for cells in list(columns.values())[1:]]
+    for latitude, longitude, distance in zip(*numbers, strict=True):
+        north, east = (math.radians(one) for one in (latitude - mesh.latitude, longitude - mesh.longitude))
+        assert math.hypot(north, east * math.cos(math.radians(latitude))) * 6371.0 == pytest.approx(distance, rel=0.01)

@@ -26,8 +26,10 @@ function bounds({ low, high, bounds: kind }, value, shown) {
 function words({ code, variable, group, line, message }, isFile) {
   const where = isFile && line ? refusal("line", { line }) : "";
   const meaning = refusal(code);
-  if (!meaning)
-    return `${group ? refusal("group", { group }) : refusal("request")}${where}: ${message.replace(/^case\.nml: /, "")}`;
+  if (!meaning) {
+    const what = group ? refusal("group", { group }) : refusal("request");
+    return `${what}${where}: ${message.replace(/^case\.nml: /, "")}`;
+  }
   if (!variable) return `${meaning}${where}`;
   const size = {
     get h() {
