@@ -1,6 +1,6 @@
 """Page of the site on the columns of the tables of results: what each means, in the order of the table."""
 
-from dondolo.reporting.headings import UNITS
+from dondolo.reporting.words import UNITS
 
 # Columns that mean the same in every table that has them
 COMMON = {

@@ -1,8 +1,9 @@
 """Mutation checks of the statistics: python test/mutations.py [--quick] [WORD]...
 
-Each edit makes one formula, one unit or one word wrong, and the test named with it must then fail. Python is edited in
-a copy of the installed package. Of a Fortran source a copy is edited, compiled against the modules of the build and
-linked before its library: into the Fortran test, or for a test of pytest into the extension module of a copied package.
+Each edit makes one formula, one unit or one word wrong, and the test named with it must then fail. Python, templates
+and JavaScript are edited in a copy of the installed package, and the Italian catalogue compiled into it. Of a Fortran
+source a copy is edited, compiled against the modules of the build and linked before its library: into the Fortran test,
+or for a test of pytest into the extension module of a copied package.
 Given words, check only the edits that contain all of them; with --quick, only the first of each file.
 
 Prints one line for each edit. Fails if an edit survives, if its text does not occur exactly once, or if a test fails
@@ -10,6 +11,7 @@ without any edit; the last line gives the reason.
 """
 
 import importlib.util
+import io
 import json
 import os
 import shlex
@@ -18,11 +20,13 @@ import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 TESTS = ROOT / "python" / "tests"
+CATALOGUES = ROOT / "python/dondolo/reporting/locale"
 
 # Time limit of one test run [s]; ample for a busy machine
 LONGEST = 1800
@@ -470,8 +474,8 @@ EDITS = [
     ),
     Edit(
         "a nearly flat curve is called a curve in Italian",
-        '"nearly_flat": "pendenza non significativa: parametri non affidabili"',
-        '"nearly_flat": "curva determinata"',
+        'msgid "nearly_flat"\nmsgstr "pendenza non significativa: parametri non affidabili"',
+        'msgid "nearly_flat"\nmsgstr "curva determinata"',
         "test_shown_truths.py::test_statuses_by_their_keys",
     ),
     Edit(
@@ -654,8 +658,8 @@ EDITS = [
     ),
     Edit(
         "thrusts are called loads in Italian",
-        '"thrust": "spinta",\n    "tie"',
-        '"thrust": "carico",\n    "tie"',
+        'msgctxt "item"\nmsgid "thrust"\nmsgstr "spinta"',
+        'msgctxt "item"\nmsgid "thrust"\nmsgstr "carico"',
         "test_shown_truths.py::test_words_of_cells_by_their_keys",
     ),
     Edit(
@@ -666,15 +670,124 @@ EDITS = [
     ),
     Edit(
         "nonlinear checks are called linear in Italian workbooks",
-        '"nonlinear": "non lineare"',
-        '"nonlinear": "lineare"',
+        'msgctxt "method"\nmsgid "nonlinear"\nmsgstr "non lineare"',
+        'msgctxt "method"\nmsgid "nonlinear"\nmsgstr "lineare"',
         "test_shown_truths.py::test_words_of_cells_by_their_keys",
     ),
     Edit(
         "the ratio of SLV is headed SLD",
-        '"linear_slv_ratio": "capacità/domanda, SLV lineare"',
-        '"linear_slv_ratio": "capacità/domanda, SLD lineare"',
+        'msgid "linear_slv_ratio"\nmsgstr "capacità/domanda, SLV lineare"',
+        'msgid "linear_slv_ratio"\nmsgstr "capacità/domanda, SLD lineare"',
         "test_shown_truths.py::test_heads_of_a_sheet_mean_what_its_quantities_mean",
+    ),
+    Edit(
+        "the page calls the depth of a tie its height in Italian",
+        'msgctxt "label of the page"\nmsgid "tie_depth"\nmsgstr "… dal filo esterno"',
+        'msgctxt "label of the page"\nmsgid "tie_depth"\nmsgstr "… quota"',
+        "test_shown_truths.py::test_labels_of_the_page_mean_what_the_properties_mean",
+    ),
+    Edit(
+        "the page calls the yield stress of ties their modulus",
+        'tie_strength: "Yield stress"',
+        'tie_strength: "Modulus"',
+        "test_shown_truths.py::test_labels_of_the_page_mean_what_the_properties_mean",
+    ),
+    Edit(
+        "the page refuses a number below its least as one above its most",
+        'msgid "at least"\nmsgstr "almeno {x}"',
+        'msgid "at least"\nmsgstr "al più {x}"',
+        "test_shown_truths.py::test_refusals_say_their_bounds",
+    ),
+    Edit(
+        "the ends of the levels are exchanged in an Italian warning",
+        "mediana della curva di fragilità {theta}, fuori dai livelli da {first_level} a {last_level}",
+        "mediana della curva di fragilità {theta}, fuori dai livelli da {last_level} a {first_level}",
+        "test_shown_truths.py::test_places_of_italian_warnings_are_in_order",
+    ),
+    Edit(
+        "exclusive mechanisms are called independent in Italian",
+        'msgid "exclusive"\nmsgstr "esclusivi"',
+        'msgid "exclusive"\nmsgstr "indipendenti"',
+        "test_shown_truths.py::test_words_of_cells_by_their_keys",
+    ),
+    Edit(
+        "the ground that governs a floor has the acceleration of its modes",
+        "numbers = 'max('//trim(shown(modal))//', '//trim(shown(ground))//')'",
+        "numbers = 'max('//trim(shown(modal))//', '//trim(shown(modal))//')'",
+        "test_truths.py::test_every_number_of_a_sheet_follows_from_its_symbols",
+        in_library=True,
+    ),
+    Edit(
+        "ends of the frequency above the hazard are exchanged",
+        "low=piece(it.above[0]), high=piece(it.above[1])",
+        "low=piece(it.above[1]), high=piece(it.above[0])",
+        "test_shown_truths.py::test_ranges_of_reports_ascend",
+    ),
+    Edit(
+        "ends of the hazard are exchanged in a report",
+        "first=it.levels[0], last=it.levels[1]",
+        "first=it.levels[1], last=it.levels[0]",
+        "test_shown_truths.py::test_ranges_of_reports_ascend",
+    ),
+    Edit(
+        "intervals of the frequency have their ends exchanged",
+        'zip(table["low"], table["high"]',
+        'zip(table["high"], table["low"]',
+        "test_shown_truths.py::test_ranges_of_reports_ascend",
+    ),
+    Edit(
+        "what a level exceeds is that of its upper end",
+        "hazard.annual_frequency[:-1]]",
+        "hazard.annual_frequency[1:]]",
+        "test_shown_truths.py::test_what_is_said_of_the_risk_is_the_hazard_s",
+    ),
+    Edit(
+        "the standard error of ln theta is that of beta",
+        "error=number(curve.se_ln_theta, 3)",
+        "error=number(curve.se_beta, 3)",
+        "test_shown_truths.py::test_what_is_said_of_a_wall_is_of_its_curve",
+    ),
+    Edit(
+        "ends of the intervals of a curve are exchanged",
+        'for place, side in enumerate(("low", "high"))',
+        'for place, side in enumerate(("high", "low"))',
+        "test_shown_truths.py::test_what_is_said_of_a_wall_is_of_its_curve",
+    ),
+    Edit(
+        "the upper end of a fraction is its lower",
+        "high=probability(high / n)",
+        "high=probability(low / n)",
+        "test_shown_truths.py::test_histories_that_are_not_computable_widen_bounds",
+    ),
+    Edit(
+        "the lowest median is the greatest",
+        '"theta_lowest": [low for low, _ in bounds]',
+        '"theta_lowest": [high for _, high in bounds]',
+        "test_shown_truths.py::test_histories_that_are_not_computable_widen_bounds",
+    ),
+    Edit(
+        "shares of a population stand at the levels of others",
+        "level(people.levels[i], people.im)) for i in chosen]",
+        "level(people.levels[-1 - i], people.im)) for i in chosen]",
+        "test_shown_truths.py::test_shares_of_a_population_are_those_at_their_levels",
+    ),
+    Edit(
+        "a calculation report has the probability of collapse at SLD",
+        "pga = document.subjects.several[0].check.pga\n    ends",
+        'pga = document.subjects.several[0].check.value("site", "SLD", "pga")\n    ends',
+        "test_shown_truths.py::test_curves_of_a_calculation_report",
+    ),
+    Edit(
+        "the lower end of a median is its upper",
+        '("95 % interval from")): [number(low) for low, _high in ends]',
+        '("95 % interval from")): [number(high) for _low, high in ends]',
+        "test_shown_truths.py::test_curves_of_a_calculation_report",
+    ),
+    Edit(
+        "latitudes of nodes are their longitudes",
+        "[number(one, 9) for one in mesh.latitudes]",
+        "[number(one, 9) for one in mesh.longitudes]",
+        "test_shown_truths.py::test_nodes_of_a_site_are_where_their_distances_say",
     ),
     Edit(
         "bands have another confidence than their labels",
@@ -744,11 +857,25 @@ def is_fortran(edit: Edit) -> bool:
     return edit.in_library or edit.test.endswith(".f90")
 
 
+def is_translation(edit: Edit) -> bool:
+    """Is it the Italian of something?"""
+    return edit.old in texts_in(CATALOGUES, (".po",))[CATALOGUES / "it.po"]
+
+
 def places(edit: Edit, package: Path) -> list[str]:
     """Files of the package, or of the library, in which the text of an edit occurs, once for each occurrence."""
-    folder, pattern = (ROOT / "src", "*.f90") if is_fortran(edit) else (package, "*.py")
-    sources = {path: path.read_text(encoding="utf-8") for path in sorted(folder.rglob(pattern))}
+    folder, suffixes = (ROOT / "src", (".f90",)) if is_fortran(edit) else (package, (".py", ".js", ".j2"))
+    if is_translation(edit):
+        folder, suffixes = CATALOGUES, (".po",)
+    sources = texts_in(folder, suffixes)
     return [str(path.relative_to(folder)) for path, text in sources.items() for _ in range(text.count(edit.old))]
+
+
+@cache
+def texts_in(folder: Path, suffixes: tuple[str, ...]) -> dict[Path, str]:
+    """Texts of the sources in a folder."""
+    found = sorted(path for path in folder.rglob("*") if path.suffix in suffixes)
+    return {path: path.read_text(encoding="utf-8") for path in found}
 
 
 def stale(package: Path) -> list[str]:
@@ -815,6 +942,17 @@ def link_extension(edit: Edit, package: Path) -> None:
         run_compiler([*words[:at], str(package / "_fortran" / target.name), str(made), *words[at + 1 :]], build)
 
 
+def compile_catalogue(edit: Edit, package: Path) -> None:
+    """Put a catalogue with an edit into a copied package."""
+    from babel.messages.mofile import write_mo
+    from babel.messages.pofile import read_po
+
+    source = CATALOGUES / places(edit, package)[0]
+    wrong = source.read_text(encoding="utf-8").replace(edit.old, edit.new)
+    with (package / "reporting/locale" / source.with_suffix(".mo").name).open("wb") as made:
+        write_mo(made, read_po(io.StringIO(wrong)))
+
+
 def run_compiler(command: list[str | Path], folder: Path) -> None:
     """Compile or link."""
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
@@ -851,6 +989,8 @@ def check(edit: Edit, package: Path) -> str:
                 copied = copy_of(package, Path(name))
                 if edit.in_library:
                     link_extension(edit, copied)
+                elif is_translation(edit):
+                    compile_catalogue(edit, copied)
                 else:
                     place = copied / places(edit, package)[0]
                     place.write_text(place.read_text(encoding="utf-8").replace(edit.old, edit.new), encoding="utf-8")

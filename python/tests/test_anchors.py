@@ -14,7 +14,7 @@ import pytest
 
 import dondolo as dd
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione.terms import warning
+from dondolo.reporting.words import warning
 
 matplotlib.use("agg")
 

@@ -14,7 +14,7 @@ from dondolo.errors import InputError
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.floors import modes_in
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.reporting.relazione.terms import warning
+from dondolo.reporting.words import warning
 
 AQUILA = {"ag": (0.104, 0.261, 0.334), "f0": (2.332, 2.364, 2.4), "tc_star": (0.281, 0.347, 0.364)}
 LOW = {"ag": (0.04, 0.10, 0.13), "f0": (2.5, 2.55, 2.6), "tc_star": (0.27, 0.29, 0.30)}

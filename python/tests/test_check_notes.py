@@ -9,7 +9,7 @@ from test_tabulated_checks import table_of
 
 import dondolo as dd
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione.terms import warning
+from dondolo.reporting.words import warning
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 

@@ -11,7 +11,7 @@ import pytest
 
 import dondolo as dd
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione.terms import warning as in_words
+from dondolo.reporting.words import warning as in_words
 
 STRIP = {"height": 2.85, "thickness": 0.21, "density": 1884.0, "hinge": 0.72, "overburden": 21e3}
 HOUSE = {"storeys": 2, "level": 3.0, "building_height": 6.0}

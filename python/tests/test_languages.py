@@ -12,12 +12,11 @@ import pytest
 from test_relazione import ENGLISH
 
 import dondolo as dd
-from dondolo._base.wording import in_english, key, say
+from dondolo._base.wording import in_english, key, property_name, say
 from dondolo._fortran.records import describe_measure
 from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo.reporting.columns import _COLUMNS
 from dondolo.reporting.language import Language
-from dondolo.reporting.properties_it import SUPPORTS
 from dondolo.reporting.statuses import STATUSES
 from dondolo.walls.wall import notes_on_supports
 
@@ -52,6 +51,7 @@ NAMES = [
         "ground",
         "year",
         "years",
+        "deg",
         "model",
         "total",
     ],
@@ -88,14 +88,19 @@ def named():
     return found
 
 
-def test_every_sentence_is_translated(root):
+@pytest.fixture(scope="module")
+def catalogue(root):
+    """The one Italian catalogue."""
     pofile = pytest.importorskip("babel.messages.pofile")
+    return pofile.read_po((root / "python/dondolo/reporting/locale/it.po").open("rb"))
+
+
+def test_every_sentence_is_translated(root, catalogue):
     package = root / "python/dondolo"
     found = marked(package) | named()
     # Units and formulas are the same in both languages.
     worded = {one for one in found if re.search("[A-Za-z]{2}", re.sub(r"\{[^}]*\}", "", one))}
-    catalogue = pofile.read_po((package / "reporting/locale/it.po").open("rb"))
-    known = {one.id: one for one in catalogue if one.id}
+    known = {one.id: one for one in catalogue if one.id and not one.context}
     assert worded - set(known) == {" [rad/s]", "pga [g]"}
     assert set(known) - found == set()
     assert len(known) > 900
@@ -107,17 +112,70 @@ def test_every_sentence_is_translated(root):
         assert Language("it").text(sentence) == one.string, "build again"
 
 
+# What names of the catalogue are of, besides columns whose cells are words
+KINDS = {
+    "property of a case", "note on supports", "name of a sheet", "head of a column", "quantity of a check", "item",
+    "item with its article", "warning", "word of the page", "label of the page", "refusal of the page",
+}  # fmt: skip
+
+
+def test_what_has_a_name_is_translated(root, catalogue):
+    """Each name once, as it was built; the sources ask for each kind, and columns of words are columns."""
+    italian, sources = Language("it"), [one.read_text() for one in (root / "python/dondolo").rglob("*.py")]
+    several = [one for one in catalogue if one.context]
+    assert len(several) > 1000
+    for one in several:
+        assert one.string
+        assert not one.fuzzy
+        assert italian.named(one.context, one.id) == one.string, "build again"
+        assert Language("en").named(one.context, one.id) == one.id
+    kinds = {one.context for one in several}
+    assert kinds >= KINDS
+    assert all(any(f'"{kind}"' in text or kind.endswith("of the page") for text in sources) for kind in KINDS)
+    heads = {one.id for one in several if one.context == "head of a column"}
+    assert kinds - KINDS - heads == set()
+    text = (root / "python/dondolo/reporting/locale/it.po").read_text()
+    assert text.count("\nmsgctxt ") == len(several), "a name is there twice"
+
+
+# English words that Italian has too, and Italian that English documents name: titles, marks, a table's year
+ALIKE = {"certificate", "converge", "decade", "media", "modulo", "precede", "prime"}
+QUOTED = {"__main__.py": {"calcolo", "completare"}, "writing.py": {"calcolo"}, "hazard_table.py": {"anno"},
+          "references.f90": {"delle"}}  # fmt: skip
+SUFFIXES = {".py", ".pyi", ".js", ".html", ".j2", ".f90"}
+WORD = re.compile("[a-zà-ù]{4,}")
+
+
+def test_no_other_file_has_italian(root, catalogue):
+    """One catalogue: not a word of it in a source, but in readers of accelerograms, which know several languages."""
+    pages = [root / "CHANGELOG.md", *(one for one in (root / "docs").glob("*.md") if one.stem != "italiano")]
+    english = ALIKE | {word for page in pages for word in WORD.findall(page.read_text().lower())}
+    english |= {word for one in catalogue for word in WORD.findall(str(one.id).lower())}
+    said = [re.sub(r"\{[^}]*\}", " ", one.string.lower()) for one in catalogue if one.id]
+    italian = {word for text in said for word in WORD.findall(text)} - english
+    assert set(WORD.findall('{"thickness": "spessore della muratura"}')) & italian == {"spessore", "muratura"}
+    folders = [root / "python/dondolo", root / "src", root / "app"]
+    sources = [one for folder in folders for one in folder.rglob("*") if one.suffix.lower() in SUFFIXES]
+    assert len(sources) > 500
+    for source in sources:
+        if root / "src/study/records" not in source.parents:
+            found = set(WORD.findall(source.read_text(encoding="utf-8").lower())) & italian
+            assert found - QUOTED.get(source.name, set()) == set(), source
+
+
 def test_properties_have_names():
     with Language("it").in_force():
         for row in WALL_PROPERTIES:
             name = row.name.replace("_", " ")
-            assert say(name) != name or name in ("spring", "distributed_spring"), name
+            assert property_name(row.name) != name or name in ("spring", "distributed_spring"), name
 
 
 def test_notes_on_supports_are_said_by_their_codes(root):
     source = (root / "src/core/wall/support_notes.f90").read_text()
     codes = dict(re.findall(r"(\w+) = '(.*?)'", re.search(r"(?s)   !> Codes.*?\n\n", source)[0]))
-    assert list(codes) == list(codes.values()) == list(SUPPORTS)
+    notes = Language("it").all_named("note on supports")
+    assert list(codes) == list(codes.values())
+    assert set(codes) == set(notes)
     building, ties = dd.Building(0.3, participation=1.1), [dd.Tie(7.0, area=1e-4, length=5.0)]
     tied, leaning = (
         dd.OneSidedWall(8.0, 0.4, building=building, ties=ties),
@@ -128,12 +186,12 @@ def test_notes_on_supports_are_said_by_their_codes(root):
         several, alone, without = (
             [text for _, text in notes_on_supports(some)] for some in ((tied, leaning, plain), (tied,), (plain,))
         )
-    moves, ties = SUPPORTS["one_floor_moves_both"], SUPPORTS["ties_to_building"]
+    moves, ties = notes["one_floor_moves_both"], notes["ties_to_building"]
     both, one = {"walls": "di 2 pareti"}, {"walls": "di 1 parete"}
-    assert several == [SUPPORTS["buildings_move_walls"], moves.format(**both), ties.format(**one)]
+    assert several == [notes["buildings_move_walls"], moves.format(**both), ties.format(**one)]
     of_it = {"walls": "della parete"}
-    assert alone == [SUPPORTS["building_moves_both"], moves.format(**of_it), ties.format(**of_it)]
-    assert without == [SUPPORTS["records_at_base"]]
+    assert alone == [notes["building_moves_both"], moves.format(**of_it), ties.format(**of_it)]
+    assert without == [notes["records_at_base"]]
     assert notes_on_supports((plain,))[0][1].startswith("records are applied at the base of the wall; ground records")
 
 

@@ -19,11 +19,12 @@ import pytest
 
 import dondolo as dd
 from dondolo.__main__ import main
+from dondolo.reporting import words
 from dondolo.reporting.blocks import Fraction, linear, symbol_of
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import Numeral
-from dondolo.reporting.relazione import drawings, project, terms
+from dondolo.reporting.relazione import drawings, project
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.drawings import draw_anchor
 from dondolo.reporting.relazione.subjects import subjects_of
@@ -1077,8 +1078,9 @@ def test_a_file_of_the_project_that_is_no_toml(both, tmp_path):
 
 def test_tables_have_every_key(root):
     sheet = (root / "src/core/check/check_sheet.F90").read_text()
-    assert set(terms.MEANINGS) == set(re.findall(r"quantity_type\('(\w+)'", sheet))
-    assert set(terms.FITS) == set(STATUSES)
+    italian = Language("it")
+    assert set(italian.all_named("quantity of a check")) == set(re.findall(r"quantity_type\('(\w+)'", sheet))
+    assert set(italian.all_named("status")) == set(STATUSES)
     page = (root / "docs/files.md").read_text().partition("### Warnings")[2].partition("These are of Python alone")[0]
     codes = {
         code
@@ -1087,12 +1089,12 @@ def test_tables_have_every_key(root):
             r"`([a-z_]+_[a-z_]+|separated|decreasing|extrapolated)`", row.split("|")[1] if row.count("|") > 2 else row
         )
     }
-    assert codes - set(terms.WARNINGS) - {"code"} - {"interlock_overlap"} == set()
+    assert codes - set(italian.all_named("warning")) - {"code"} - {"interlock_overlap"} == set()
     warning = dd.errors.DondoloWarning(
         "sentence", "scale_factors_large", {"record": "a"}, {"limit": 10.0, "largest": 18.03, "level": 0.3}
     )
-    assert "il massimo 18,03 (accelerogramma a al livello 0,3)" in terms.warning(Language("it"), warning)
-    assert terms.warning(Language("en"), warning) == "sentence"
+    assert "il massimo 18,03 (accelerogramma a al livello 0,3)" in words.warning(italian, warning)
+    assert words.warning(Language("en"), warning) == "sentence"
 
 
 def test_symbols_units_and_formulas():

@@ -29,7 +29,7 @@ from starlette.testclient import TestClient
 
 from dondolo.checks.ntc import Verdict
 from dondolo.exchange.case_text import case_text
-from dondolo.reporting.properties_it import MEANINGS
+from dondolo.reporting.language import Language
 from dondolo.serve import documents
 from dondolo.serve.server import application, beginning_of, warm_up
 
@@ -178,8 +178,8 @@ def test_a_chain_is_refused(page, root):
     assert "one block or two" in sent.json()["error"]
     opened = page.post("/open", json={"text": (root / "data/cases/compound.nml").read_text()}).json()
     assert len(curve(page, opened["settings"], auto=True)["wall"]["rest"]) == 3
-    words = (Path(dd.__file__).parent / "serve/page/refusals.js").read_text()
-    assert "eseguire le catene di corpi rigidi con dondolo" in words
+    words = page.get("/begin").json()["words"]["it"]["refusals"]
+    assert "eseguire le catene di corpi rigidi con dondolo" in words["out_of_range.mechanism"]
 
 
 @pytest.mark.parametrize("name", ["tied", "facade", "gable", "parapet_on_building", "facade_strip", "garden_wall"])
@@ -285,7 +285,9 @@ def test_anchors_that_nobody_has_given(page):
 def test_verdicts_are_the_library_s(page):
     """The page has the verdicts of `check_ntc`, and words for all that there may be, in both languages."""
     words = page.get("/words.js").text
-    assert set(re.findall(r'"verdict\.([\w ]+)": \[\s*"', words)) == set(get_args(Verdict))
+    verdicts = {f"verdict.{verdict}" for verdict in get_args(Verdict)}
+    assert set(re.findall(r'"(verdict\.[\w ]+)":\s*"', words)) == verdicts
+    assert verdicts <= set(page.get("/begin").json()["words"]["it"]["words"])
     seen = set()
     weak = TIED["wall"] | {"tie_anchor_force": [2e3]}
     for wall, ag, more in [
@@ -327,9 +329,10 @@ def test_refusals_are_data(page):
     assert "\n".join(one["message"] for one in refused["errors"]) == refused["error"]
     asked = page.post("/open", json={"text": "&job task = 'history' /"}).json()
     assert asked["errors"]
-    words = page.get("/refusals.js").text
-    table = words[words.index("const CODES") : words.index("const OWN")]
-    assert set(re.findall(r"(\w+): \"", table)) == set(get_args(dd.errors.Code))
+    asked = page.get("/refusals.js").text
+    refusals = page.get("/begin").json()["words"]["it"]["refusals"]
+    parts = set(re.findall(r'(?:refusal\(|[?:] )"([\w ]+)"', asked)) | set(re.findall(r', "(within \w+)"', asked))
+    assert {name.partition(".")[0] for name in refusals} == set(get_args(dd.errors.Code)) | parts
 
 
 @pytest.mark.slow
@@ -356,14 +359,18 @@ def test_refusals_of_every_field_have_codes(page):
 def test_every_property_has_its_words(page):
     """Names and meanings of all variables are there in both languages."""
     words = page.get("/words.js").text
-    labels = words[words.index("const LABELS") : words.index("let place")]
-    named = dict(re.findall(r"(\w+): \[(\".*?\", \".*?\")\]", labels))
-    tables = page.get("/begin").json()["properties"]
+    labels = words[words.index("const LABELS") : words.index("let spoken")]
+    named = set(re.findall(r"(\w+): \"", labels))
+    begun = page.get("/begin").json()
+    tables = begun["properties"]
     rows = {name: row for table in tables.values() for name, row in table.items()}
     assert sum(map(len, tables.values())) == len(rows)
-    assert set(named) == set(rows) == set(MEANINGS)
+    meanings = Language("it").all_named("property of a case")
+    assert named == set(rows) == set(meanings)
+    # Symbols are the same in both languages.
+    assert named - set(begun["words"]["it"]["labels"]) == {"ag", "f0", "tc_star", "inertia_x", "load_x", "thrust_x"}
     for name, row in rows.items():
-        assert row["meaning"]["it"] == MEANINGS[name] != row["meaning"]["en"]
+        assert row["meaning"]["it"] == meanings[name] != row["meaning"]["en"]
 
 
 def test_motions(page):

@@ -3,10 +3,13 @@
 Units are computed from their names, and words are compared by their keys, so that no exchange goes unseen.
 """
 
+import dataclasses
 import html
+import math
 import re
 import statistics
 import warnings
+from pathlib import Path
 
 import matplotlib
 
@@ -18,10 +21,11 @@ import pytest
 
 import dondolo as dd
 from dondolo.checks.plots import check_name
-from dondolo.reporting import columns, headings, numerals, properties_it, run, statuses
+from dondolo.reporting import columns, numerals, run, statuses, typology, words
+from dondolo.reporting import wall as wall_facts
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione import outcome, project, terms
+from dondolo.reporting.relazione import outcome, project, site_grid
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.subjects import Subject, Subjects
 from dondolo.reporting.risk import risk_facts
@@ -29,6 +33,8 @@ from dondolo.reporting.units import CENTIMETRES, UNITS
 from dondolo.reporting.wall import numbers as numbers_of_a_wall
 from dondolo.reporting.wall import summary
 from dondolo.serve.pictures import picture
+
+ITALIAN = Language("it")
 
 # --- Numbers
 
@@ -147,12 +153,12 @@ def test_heads_of_columns_have_their_units():
 
 
 def test_italian_heads_have_the_units_of_the_names():
-    for ending in headings.UNITS:
-        words = next(iter(headings.COLUMNS))
-        found = re.fullmatch(r".+ \[(.+)\]", headings.heading(f"{words}{ending}"))
+    for ending in words.UNITS:
+        with ITALIAN.in_force():
+            found = re.fullmatch(r".+ \[(.+)\]", words.heading(f"wall{ending}"))
         assert found[1].replace("²", "2").replace("³", "3").replace("°", "deg") == unit_of_ending(ending), ending
     # The longest ending first, or part of a unit is taken for a word
-    names = list(headings.UNITS)
+    names = list(words.UNITS)
     assert all(not two.endswith(one) for place, one in enumerate(names) for two in names[place + 1 :])
 
 
@@ -168,7 +174,9 @@ def test_italian_heads_have_the_units_of_the_names():
     ],
 )
 def test_italian_heads_of_parts(name, head):
-    assert headings.heading(name) == head
+    with ITALIAN.in_force():
+        assert words.heading(name) == head
+    assert words.heading(name) == name
 
 
 # --- Words by their keys
@@ -184,19 +192,18 @@ FITTED = ("ok", "extrapolated", "nearly_flat")
 
 def test_statuses_by_their_keys():
     """In all vocabularies: a status that has no curve says so, and no other does."""
-    assert set(statuses.STATUSES) == set(statuses.FITS) == set(SAYS)
-    for name, words in SAYS.items():
-        assert [key for key, text in statuses.FITS.items() if words in text] == [name]
-        assert terms.status(Language("it"), name) == statuses.FITS[name]
-        assert headings.in_words("status", name) == statuses.FITS[name]
-        assert ("nessuna curva" in statuses.FITS[name]) == (name not in FITTED)
+    italian = ITALIAN.all_named("status")
+    assert set(statuses.STATUSES) == set(italian) == set(SAYS)
+    for name, said in SAYS.items():
+        assert [key for key, text in italian.items() if said in text] == [name]
+        assert ("nessuna curva" in italian[name]) == (name not in FITTED)
         assert ("a curve" in statuses.STATUSES[name]) == (name in FITTED)
-    short = {"ok": "valida", "no_collapse": "nessun collasso", "all_collapse": "tutt"}
-    with Language("it").in_force():
-        for name, words in short.items():
-            assert statuses.status_meaning(name) == statuses.FITS[name]
-            if name != "ok":
-                assert words in statuses.short_status(name), name
+        assert statuses.status_meaning(name) == statuses.STATUSES[name]
+        with ITALIAN.in_force():
+            assert words.in_words("status", name) == statuses.status_meaning(name) == italian[name]
+    with ITALIAN.in_force():
+        for name, said in {"no_collapse": "nessun collasso", "all_collapse": "tutt"}.items():
+            assert said in statuses.short_status(name), name
 
 
 PAIRS = {
@@ -206,6 +213,7 @@ PAIRS = {
     ("method", "tie"): "catena", ("polarity", "as_recorded"): "come registrato", ("polarity", "reversed"): "invertito",
     ("errors", "clustered"): "per terremoto", ("errors", "naive"): "indipendenti", ("errors", "none"): "nessuno",
     ("expression", "where ties break"): "catene", ("expression", "where a seat is lost"): "appoggio",
+    ("occurrence", "exclusive"): "esclusivi", ("occurrence", "independent"): "indipendenti",
     ("load_inertia", "both"): "orizzontale e verticale", ("load_inertia", "vertical"): "verticale",
     ("load_inertia", "none"): "nessuna", ("item", "tie 2"): "catena 2", ("item", "load 1"): "carico 1",
     ("item", "thrust 3"): "spinta 3", ("item", "section 1"): "tratto 1", ("item", "lower block"): "inferiore",
@@ -215,17 +223,19 @@ PAIRS = {
 
 @pytest.mark.parametrize(("column", "value"), PAIRS)
 def test_words_of_cells_by_their_keys(column, value):
-    assert PAIRS[column, value] in headings.in_words(column, value)
+    with ITALIAN.in_force():
+        found = words.in_words(column, value)
+    assert PAIRS[column, value] in found
     if column == "method" and value == "linear":
-        assert not headings.in_words(column, value).startswith("non")
+        assert not found.startswith("non")
 
 
 def test_forces_in_italian_warnings_are_in_the_unit_that_they_say():
     numbers = {"anchor_force_per_m": 12340.0, "bar_force_per_m": 45670.0}
     told = dd.errors.DondoloWarning("sentence", "anchor_before_bar", {"item": "tie 2"}, numbers)
-    words = terms.warning(Language("it"), told)
-    assert re.search(r"catena 2 cede a 12,34\s+kN/m, .* 45,67\s+kN/m", words), words
-    for code, text in terms.WARNINGS.items():
+    said = words.warning(ITALIAN, told)
+    assert re.search(r"catena 2 cede a 12,34\s+kN/m, .* 45,67\s+kN/m", said), said
+    for code, text in ITALIAN.all_named("warning").items():
         for name, unit in re.findall(r"\{(\w*_force\w*)\}\s+(\S+?)[,;. ]", text):
             assert unit == ("kN/m" if name.endswith("_per_m") else "kN"), code
 
@@ -267,34 +277,35 @@ def stems(text):
 
 
 def test_heads_of_properties_mean_what_the_properties_mean():
-    """Two vocabularies word a property from a stem that both have."""
+    """Heads and meanings word a property from a stem that both have."""
+    heads, meanings = (ITALIAN.all_named(what) for what in ("head of a column", "property of a case"))
     apart = {"alpha", "capacity", "hinge", "level", "side", "mechanism", "load_inertia", "hinge_depth", "histories",
              "restitution", "restitution_value", "thrust", "tie_depth"}  # fmt: skip
-    both = [name for name in headings.COLUMNS if name in properties_it.MEANINGS and name not in apart]
+    both = [name for name in heads if name in meanings and name not in apart]
     assert len(both) > 40
     for name in both:
-        own = stems(headings.COLUMNS[name])
-        assert own & stems(properties_it.MEANINGS[name]), (name, headings.COLUMNS[name], properties_it.MEANINGS[name])
+        assert stems(heads[name]) & stems(meanings[name]), (name, heads[name], meanings[name])
 
 
 def test_heads_of_a_sheet_mean_what_its_quantities_mean():
     """Symbols and words of the columns of checks of many walls are those of the sheet of one."""
+    heads, meanings = (ITALIAN.all_named(what) for what in ("head of a column", "quantity of a check"))
     for name in ("mass_ratio",):
-        assert stems(headings.COLUMNS[name]) & stems(terms.MEANINGS[name]), name
+        assert stems(heads[name]) & stems(meanings[name]), name
     ends = {"linear_sld": ("SLD", "lineare"), "linear_slv": ("SLV", "lineare"), "nonlinear_slv": ("SLV", "non lineare"),
             "nonlinear_slc": ("SLC", "non lineare")}  # fmt: skip
     for name, (state, method) in ends.items():
-        assert headings.COLUMNS[name] == f"capacità a_g S, {state} {method}"
-        assert headings.COLUMNS[f"{name}_ratio"] == f"capacità/domanda, {state} {method}"
+        assert heads[name] == f"capacità a_g S, {state} {method}"
+        assert heads[f"{name}_ratio"] == f"capacità/domanda, {state} {method}"
     for name in ("theta", "beta", "ratio", "first", "total"):
         for end, word in (("low", "inizio"), ("high", "fine")):
-            text = headings.COLUMNS[f"{name}_{end}"]
+            text = heads[f"{name}_{end}"]
             assert word in text, name
     for share in (16, 50, 84):
-        assert str(share) in headings.COLUMNS[f"fractile_{share}"]
+        assert str(share) in heads[f"fractile_{share}"]
     for name in ("value", "theta"):
         for share in (5, 95):
-            assert f"{share} %" in headings.COLUMNS[f"{name}_{share}"]
+            assert f"{share} %" in heads[f"{name}_{share}"]
 
 
 # --- Columns of reports
@@ -326,6 +337,7 @@ def tables_of(path):
 
 def to_number(text):
     text = text.replace("\N{MINUS SIGN}", "-").replace("\N{NARROW NO-BREAK SPACE}", "").replace(",", ".")
+    text = text.replace("∞", "inf")
     return float("nan") if text in ("\N{EN DASH}", "") else float(text)
 
 
@@ -555,7 +567,7 @@ def test_every_number_of_the_page_is_the_library_s(lang, root):
         curve = stripes.fit()
         check = dd.check_ntc(wall, case.site, knowledge_factor=case.knowledge_factor)
     assert (answer["theta"], answer["beta"], answer["status"]) == (curve.theta, curve.beta, curve.status)
-    assert answer["sentence"] == terms.status(Language(lang), curve.status)
+    assert answer["sentence"] == Language(lang).named("status", curve.status, statuses.STATUSES[curve.status])
     assert answer["interval"] == list(curve.parameter_interval()["theta"])
     assert answer["p"] == curve(np.array(answer["x"])).tolist()
     low, high = curve.interval(answer["x"][1:])
@@ -583,7 +595,7 @@ def test_every_number_of_the_page_is_the_library_s(lang, root):
             assert verdict == "not applicable"
         else:
             assert verdict == ("verified if its ties are" if holds else "not verified")
-    assert found["notes"] == [terms.warning(Language(lang), note) for note in check.notes]
+    assert found["notes"] == [words.warning(Language(lang), note) for note in check.notes]
 
 
 # --- What a calculation report says of the code
@@ -622,3 +634,208 @@ def two_states(lang):
     made = [dd.check_ntc(wall, site) for wall in walls]
     subjects = Subjects(tuple(Subject(check.wall, check, None, None) for check in made))
     return Document(Language(lang), project.Project(), subjects), made
+
+
+# --- Words of the page
+
+
+def test_labels_of_the_page_mean_what_the_properties_mean():
+    """In both languages a label has a word of the meaning of its property, or of its name or head."""
+    from dondolo._fortran.library import properties
+
+    page = (Path(dd.__file__).parent / "serve/page/words.js").read_text()
+    english = dict(re.findall(r'^  (\w+): "(.*)",$', page.partition("const LABELS")[2], re.M))
+    rows = [
+        row
+        for group in ("job", "wall", "building", "records", "stripes", "solver", "check")
+        for row in properties(group)
+    ]
+    italian, heads, meanings = (
+        ITALIAN.all_named(what) for what in ("label of the page", "head of a column", "property of a case")
+    )
+    # Symbols, and labels that say it in other words
+    apart = {"section_offset", "load_x", "inertia_x", "thrust_x", "polarity", "ag", "f0", "tc_star"}
+    apart_in_italian = {"title", "thrust_decay", "masonry_knowledge_factor", "table", "weight", "sides", "catalogue",
+                        "certify", "soil"}  # fmt: skip
+    assert {row.name for row in rows} == set(english)
+    for row in rows:
+        name = row.name
+        if name in italian and name not in apart_in_italian:
+            assert stems(italian[name]) & stems(f"{meanings[name]} {heads.get(name, '')}"), (name, italian[name])
+        if name not in apart:
+            assert stems(english[name]) & stems(f"{row.meaning} {name.replace('_', ' ')}"), (name, english[name])
+
+
+# What the Italian of a bound, and of a size of the wall, must say
+BOUNDS = {
+    "at least": "almeno", "at most": "al più", "more than 0": "maggiore di 0", "less than": "minore di",
+    "positive": "positivo", "within height": "altezza", "within depth": "facce",
+}  # fmt: skip
+
+
+def test_refusals_say_their_bounds():
+    found = ITALIAN.all_named("refusal of the page")
+    for name, said in BOUNDS.items():
+        assert [one for one in BOUNDS if said in found[one]] == [name]
+    assert all("{h}" in text for text in found.values() if "altezza della parete, {" in text)
+    assert all(
+        "{t}" in text for text in found.values() if "spessore, {" in text or "facce della parete, da 0 a {" in text
+    )
+
+
+def test_places_of_italian_warnings_are_in_order():
+    """From the first to the last, from the lower to the upper, from what is said of all to what is said of some."""
+    pairs = [("first_level", "last_level"), ("shortest_s", "longest_s"), ("less_sld", "tied_sld"),
+             ("records_beyond", "records"), ("histories_beyond", "histories"), ("curves", "of_curves"),
+             ("factors_beyond", "factors")]  # fmt: skip
+    for code, text in ITALIAN.all_named("warning").items():
+        for first, last in pairs:
+            if f"{{{first}}}" in text and f"{{{last}}}" in text:
+                assert text.index(f"{{{first}}}") < text.index(f"{{{last}}}"), (code, first, last)
+
+
+# --- Numbers of reports
+
+
+@pytest.fixture(scope="module")
+def judged(wall, few):
+    """A wall under a few records, whose histories are certified, with its hazard."""
+    levels = np.geomspace(0.02, 2.0, 10)
+    hazard = dd.HazardCurve(
+        levels, 1e-4 * levels**-2.2, fractiles={0.16: 5e-5 * levels**-2.2, 0.84: 2e-4 * levels**-2.2}
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        stripes = dd.multiple_stripe(wall, few, [0.3, 0.5, 0.7, 0.9, 1.2], certify=True, progress=False)
+        return stripes, stripes.fit(), hazard
+
+
+def column_of(table, head):
+    """Cells of a column of a report's table, as text."""
+    (cells,) = [column.cells for column in table.columns if texts(column.head) == head]
+    return [texts(one) for one in cells]
+
+
+def numbers_in(text):
+    return [to_number(one) for one in re.findall(r"\d+(?:\.\d+)?", text)]
+
+
+def test_what_is_said_of_a_wall_is_of_its_curve(judged):
+    """Cards and intervals, each beside what the library has."""
+    stripes, curve, _hazard = judged
+    cards = {texts(name): (texts(value), texts(note)) for name, value, note in summary(stripes, curve)["cards"]}
+    for name, value, error in (("median", curve.theta, curve.se_ln_theta), ("dispersion", curve.beta, curve.se_beta)):
+        (found,) = [card for head, card in cards.items() if head.startswith(name)]
+        assert [numbers_in(part)[-1 if place else 0] for place, part in enumerate(found)] == pytest.approx(
+            [value, error], rel=5e-3
+        )
+    intervals = wall_facts.uncertainty(curve)["intervals"]
+    for name, letter in (("theta", "θ"), ("beta", "β")):
+        for place, end in enumerate(("from", "to")):
+            shown = column_of(intervals, f"{letter} {end}")
+            assert to_number(shown[0]) == pytest.approx(curve.parameter_interval()[name][place], rel=5e-4)
+
+
+def test_what_is_said_of_the_risk_is_the_hazard_s(judged):
+    stripes, curve, hazard = judged
+    facts, _found = risk_facts(run.run_of(stripes), hazard, Language("en"))
+    table, risk = facts["deaggregation"], curve.risk(hazard)
+    ends = [[to_number(one) for one in column_of(table, head)] for head in ("pga from [g]", "to [g]")]
+    assert ends[0] == pytest.approx(hazard.levels[:-1], rel=5e-4)
+    assert ends[1] == pytest.approx(hazard.levels[1:], rel=5e-4)
+    exceeded = [read(one)[0] for one in next(one.cells for one in table.columns if "exceeded" in texts(one.head))]
+    assert exceeded == pytest.approx(hazard.annual_frequency[:-1], rel=5e-3)
+    for name in ("above", "below"):
+        assert [read(one)[0] for one in facts[name]] == pytest.approx(getattr(risk, name), rel=5e-3)
+
+
+NUMBER = r"\d+(?:\.\d+)?(?: \N{MULTIPLICATION SIGN} 10\N{MINUS SIGN}?\d+)?"
+
+
+def in_figures(text):
+    """A number of a page, perhaps with a power of ten."""
+    digits, _, power = text.replace("\N{MINUS SIGN}", "-").partition(" \N{MULTIPLICATION SIGN} 10")
+    return float(digits) * 10.0 ** float(power or 0)
+
+
+def test_ranges_of_reports_ascend(judged, population, tmp_path):
+    """Of every sentence and cell 'between a and b' and 'a to b', and of every pair of columns 'from' and 'to'."""
+    stripes, _curve, hazard = judged
+    found = 0
+    for name, results in (("wall", stripes), ("people", population)):
+        path = tmp_path / f"{name}.html"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            dd.report(results, path, hazard=hazard)
+        page = re.sub(r"<style>.*?</style>|<pre>.*?</pre>", "", path.read_text(), flags=re.S)
+        text = " ".join(html.unescape(re.sub(r"</?t[dhr][^>]*>", " | ", page)).split())
+        text = re.sub(r"<[^>]*>", "", text)
+        for between in (
+            rf"\b(?:between|from) ({NUMBER})[\w ]{{0,4}} (?:and|to) ({NUMBER})",
+            rf"({NUMBER}) to ({NUMBER})",
+        ):
+            for low, high in re.findall(between, text):
+                found += 1
+                assert in_figures(low) <= in_figures(high), (low, high)
+        for caption, table in tables_of(path).items():
+            for head in [one for one in table if one == "from" or one.endswith(" from")]:
+                other = head.removesuffix("from") + "to"
+                for low, high in zip(table[head], table.get(other, []), strict=False):
+                    found += 1
+                    assert not to_number(low) > to_number(high), (caption, head)
+    assert found > 20
+
+
+def test_histories_that_are_not_computable_widen_bounds(judged):
+    """Fractions and medians of certified histories are between those of none and of all of them."""
+    stripes, curve, _hazard = judged
+    lowest, highest, status = stripes.edp.copy(), stripes.edp.copy(), stripes.status.copy()
+    doubtful = np.flatnonzero(~stripes.collapsed[2])[:4]
+    highest[2, doubtful], status[2, doubtful] = 1.0, dd.results.Certified.NOT_COMPUTABLE
+    bounded = dataclasses.replace(stripes, edp_lowest=lowest, edp_highest=highest, status=status)
+    ends = bounded.exceedance_bounds(1.0)
+    assert np.any(ends[0] < ends[1])
+    told = wall_facts.certificates(bounded, [curve], "separate")
+    (cells,) = [one.cells for one in told["levels"].columns if "fraction" in texts(one.head)]
+    for cell, low, high, n in zip(cells, *ends, bounded.histories, strict=True):
+        assert numbers_in(texts(cell)) == pytest.approx([low / n] if low == high else [low / n, high / n], abs=1e-4)
+    ((low, high),) = bounded.state_bounds([1.0], states="separate")
+    for name, value in (("lowest", low), ("greatest", high)):
+        (cells,) = [one.cells for one in told["medians"].columns if name in texts(one.head)]
+        assert to_number(texts(cells[0])) == pytest.approx(value, rel=5e-4)
+
+
+def test_shares_of_a_population_are_those_at_their_levels(population):
+    facts = typology.summary(population)
+    assert len(facts["shares"]) > 1
+    curve = dict(zip((f"{level:g}" for level in population.levels), population["all"].mean_curve, strict=True))
+    for share, level in facts["shares"]:
+        expected = curve[texts(level).removesuffix(" g")]
+        assert texts(share) == texts(numerals.percent(expected))
+
+
+def test_curves_of_a_calculation_report(judged):
+    """Median, its interval, dispersion and the probability at a_g S of the ultimate state."""
+    _stripes, curve, _hazard = judged
+    check = dd.check_ntc(dd.OneSidedWall(5.0, 0.45), dd.Site((0.3, 0.6, 0.8), 2.45, 0.33, soil="C"))
+    document = Document(Language("en"), project.Project(), Subjects((Subject(check.wall, check, curve, None),)))
+    (table,) = [block.table for block in outcome.fragility(document) if hasattr(block, "table")]
+    low, high = curve.parameter_interval()["theta"]
+    expected = {
+        "median θ [g]": curve.theta, "95 % interval from": low, "to": high, "dispersion β": curve.beta,
+        "probability at ag S": float(curve(check.pga)),
+    }  # fmt: skip
+    for head, value in expected.items():
+        (cell,) = next(one.cells for one in table.columns if document.language.plain(one.head).replace("_", "") == head)
+        assert to_number(cell.text) == pytest.approx(value, rel=1e-3), head
+
+
+def test_nodes_of_a_site_are_where_their_distances_say():
+    """On a sphere, to 1 %: latitudes are no longitudes, and places are those of the datum of the grid."""
+    site = dd.Site(latitude=42.35, longitude=13.4, nominal_life=50)
+    mesh = site.hazard.mesh
+    columns = site_grid._nodes(Document(Language("en"), project.Project(), None), mesh)
+    numbers = [[to_number(one.text) for one in cells] for cells in list(columns.values())[1:]]
+    for latitude, longitude, distance in zip(*numbers, strict=True):
+        north, east = (math.radians(one) for one in (latitude - mesh.latitude, longitude - mesh.longitude))
+        assert math.hypot(north, east * math.cos(math.radians(latitude))) * 6371.0 == pytest.approx(distance, rel=0.01)

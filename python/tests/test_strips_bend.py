@@ -12,8 +12,8 @@ import pytest
 import dondolo as dd
 from dondolo.reporting.code_check import verdict
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione.terms import BENDING
-from dondolo.reporting.relazione.terms import warning as in_words
+from dondolo.reporting.words import BENDING
+from dondolo.reporting.words import warning as in_words
 
 # Strong enough that every check is satisfied; one bends before it opens, the other is too stocky to
 SLENDER = {"height": 3.1, "thickness": 0.26, "hinge": 0.62, "overburden": 25e3, "overburden_inertia": 0.0}

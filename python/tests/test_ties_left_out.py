@@ -16,7 +16,7 @@ from dondolo.errors import InputError
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import ties_left_out
-from dondolo.reporting.relazione.terms import warning
+from dondolo.reporting.words import warning
 from dondolo.walls.wall import upload
 
 MASONRY = ("masonry_compression", "masonry_shear", "masonry_tension")

@@ -16,6 +16,7 @@ from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione import checks, project
 from dondolo.reporting.relazione.document import Document
+from dondolo.reporting.relazione.floors import modes_in
 from dondolo.reporting.relazione.subjects import Subject, Subjects
 from dondolo.reporting.relazione.sums import reactions_of
 
@@ -73,6 +74,11 @@ WALLS = {
     ),
     "floor": (
         dd.OneSidedWall(1.6, 0.3, name="floor", building=dd.Building(period=0.35, damping=0.05, participation=1.3)),
+        THREE,
+        {},
+    ),
+    "low floor": (
+        dd.OneSidedWall(1.6, 0.3, name="low floor", building=dd.Building(period=0.35, damping=0.05, participation=0.1)),
         THREE,
         {},
     ),
@@ -148,6 +154,18 @@ def at_hinge(check, item):
         "middle hinge": {"H": abs(top - alpha * upper), "V": upper + load},
         "top hinge": {"H": top, "V": load},
     }[item]
+
+
+def of_ground(check, row):
+    """Accelerations of the modes of a building, and of the ground that governs instead [g]."""
+    found = {"a_Z,m": check.value("site", row.limit_state, "modal_pga")}
+    if row.method == "nonlinear":
+        period, damping = (check.value("nonlinear", row.limit_state, name) for name in ("period", "damping"))
+        spectrum = check.site.spectrum(periods=[period, 2.0 * period], damping=damping, limit_state=row.limit_state)
+        found["S_e(T)"] = float(spectrum.sa[0])
+        modes = modes_in(Subject(check.wall, check, None, None), row.limit_state, "nonlinear")
+        found["S_eZ,m"] = math.hypot(*(mode.peak * mode.resonance(period, damping) for mode in modes))
+    return found
 
 
 def known(check, state, without=""):
@@ -228,7 +246,9 @@ def test_every_number_of_a_sheet_follows_from_its_symbols(name, subjects):
             }
             values |= {symbol: value for symbol, value in own.items() if symbol}
         values.setdefault("q", 1.0)
-        values["a_Z"] = check.value("site", row.limit_state or "SLV", "floor_pga" if name == "floor" else "pga")
+        values["a_Z"] = check.value("site", row.limit_state or "SLV", "floor_pga" if "floor" in name else "pga")
+        if name == "low floor" and row.limit_state:
+            values |= of_ground(check, row)
         assert in_symbols(row.expression, values) == pytest.approx(row.value, rel=1e-9), (row.quantity, row.expression)
         texts, symbols = leaves(row.numbers), leaves(row.expression)
         if len(symbols) > len(texts):

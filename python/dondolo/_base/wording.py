@@ -81,6 +81,24 @@ def say(sentence: str, **values: Any) -> str:
     return _Formatter().format(found, **values) if values else found
 
 
+def named(what: str, name: str, english: str | None = None) -> str:
+    """What has a name, in the language in force; `what` it is the name of is its context in catalogues.
+
+    Where there is none it is in English: the name itself, if nothing else is given.
+    """
+    known = f"{what}\4{name}"
+    found = _current().translate(known)
+    return found if found != known else name if english is None else english
+
+
+def property_name(name: str) -> str:
+    """A property of a wall in words, or what else a source of uncertainty is."""
+    english = name.replace("_", " ")
+    found = say(english)
+    meaning = named("property of a case", name, "")
+    return named("head of a column", name, meaning) if meaning and found == english else found
+
+
 def decimal(text: str) -> str:
     """The digits of a number with the decimal mark of the language in force."""
     return text.replace(".", _current().mark)

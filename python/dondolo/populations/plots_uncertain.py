@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import property_name
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
-from dondolo.figures.wording import say
+from dondolo.figures.wording import in_words_of_figures, say
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -122,15 +123,10 @@ def _draw_tornado(found: UncertainWall, ax: Any, options: Options) -> None:
 
 def _name_of(source: str, low: float, high: float) -> str:
     """A source in words, with the range between its fractiles 5 and 95 %."""
+    with in_words_of_figures():
+        name = say(_WORDS[source]) if source in _WORDS else property_name(source)
     unit = _ROWS[source].unit
-    text = say(
-        "{source}, {low:.4g} to {high:.4g} {unit}",
-        source=say(_WORDS.get(source, source.replace("_", " "))),
-        low=low,
-        high=high,
-        unit=unit,
-    )
-    return text.rstrip()
+    return say("{source}, {low:.4g} to {high:.4g} {unit}", source=name, low=low, high=high, unit=unit).rstrip()
 
 
 def _of_shares(found: UncertainWall) -> str:

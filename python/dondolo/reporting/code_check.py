@@ -7,20 +7,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo._base.wording import decimal, in_english, say
+from dondolo._base.wording import decimal, in_english, named, say
 from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
 from dondolo.checks.plots import check_name
-from dondolo.checks.side_by_side import Chance, side_by_side
+from dondolo.checks.side_by_side import side_by_side, ties_not_counted
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning
-from dondolo.reporting import headings
 from dondolo.reporting.content import Piece, Symbol, Table, figure, pieces
 from dondolo.reporting.inputs import mechanism_of
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, chance, number, probability, whole
-from dondolo.reporting.relazione.terms import BENDING, MEANINGS, warning
 from dondolo.reporting.units import UNITS, Unit, cell, quantity
+from dondolo.reporting.words import BENDING, in_words, item_in_words, the_item_in_words, warning
 from dondolo.walls.ties import ties_without_anchor
 from dondolo.walls.wall import Wall
 
@@ -51,8 +50,8 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
         verdicts: [_worded(check, (one.method, one.limit_state)) for one in lines],
     }
     if chances:
-        columns[say("P(collapse) where allowed")] = [_chance(one.at_allowed) for one in lines]
-        columns[say("P(collapse) at the site")] = [_chance(one.at_site) for one in lines]
+        columns[say("P(collapse) where allowed")] = [chance(one.at_allowed) for one in lines]
+        columns[say("P(collapse) at the site")] = [chance(one.at_site) for one in lines]
     histories: dict[Piece, Sequence[Piece]] = {say("limit state"): [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[say(head)] = [number(check.value(*key, name)) for key in dynamic]
@@ -60,6 +59,7 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
     return {
         "checks": Table.of(columns, (verdicts,)),
         "histories": Table.of(histories, (verdicts,)) if dynamic else None,
+        "tied": [(state, the_item_in_words(ties)) for _, state in dynamic if (ties := ties_not_counted(check, state))],
         "figure": drawn,
         "site": _site_in_words(check),
         "sheet": _sheet(check),
@@ -220,14 +220,16 @@ def verdict(
     if not made:
         return Verdict("doubt", say("Not checked by a building code"), tuple(doubts)) if doubts else None
     for item, names in (
-        (f"{_name_among(check.wall, walls)}, {_item(item)}", names)
+        (f"{_name_among(check.wall, walls)}, {item_in_words(item)}", names)
         for check in made
         for item, names in check.open_ties.items()
     ):
         doubts += [f"{say(_OPEN_TIES[name])}: {item}" for name in names if name in _OPEN_TIES]
     for check in made:
         whose = f"{_name_among(check.wall, walls)}, " if len(made) > 1 else ""
-        doubts += [say("a hinge slides before it turns: {hinge}", hinge=whose + _item(item)) for item in check.sliding]
+        doubts += [
+            say("a hinge slides before it turns: {hinge}", hinge=whose + item_in_words(item)) for item in check.sliding
+        ]
     verdicts = [check._verified[key] for check in made for key in check.required]
     if missed:
         which = _required(made[0])
@@ -317,19 +319,9 @@ def _name(method: str, state: str, between: str = " ") -> str:
     return f"{method}{between}{state}".strip() if in_english() else check_name(method, state)
 
 
-def _item(name: str) -> str:
-    """An item of the sheet, such as 'tie 1', in words."""
-    return name if in_english() else headings.in_words("item", name)
-
-
 def _unit(row: SheetRow) -> Unit:
     """The unit that a number of the sheet is shown in."""
     return UNITS.get(row.unit, Unit(row.unit))
-
-
-def _method(name: str) -> str:
-    """A method of the sheet in words."""
-    return name if in_english() else headings.in_words("method", name)
 
 
 def _site_in_words(check: CodeCheck) -> tuple[Any, ...]:
@@ -355,11 +347,6 @@ def _amount(value: float, unit: str) -> Piece:
     return NONE if np.isnan(value) else quantity(value, UNITS[unit])
 
 
-def _chance(found: Chance | None) -> Piece:
-    """A probability of collapse with its interval; a dash for none."""
-    return NONE if found is None else chance(*found)
-
-
 def _flag(row: SheetRow) -> Piece:
     """A number of the sheet that is 1 or 0; English meanings say what each is, Italian ones are cut before."""
     if in_english():
@@ -369,15 +356,21 @@ def _flag(row: SheetRow) -> Piece:
     return say("perhaps") if row.quantity == "free_element" else say("no")
 
 
+def _meaning(row: SheetRow) -> str:
+    """What a number of the sheet is."""
+    return row.meaning if in_english() else named("quantity of a check", row.quantity).partition(":")[0]
+
+
 def _sheet(check: CodeCheck) -> Table:
     """All numbers, in the order of the calculation."""
     counts = ("records", "histories", "beyond")
     shown = [row for row in check.rows if not row.quantity.startswith("probability")]
     texts = say("check"), say("symbol"), say("unit"), say("formula")
     columns: dict[Piece, Sequence[Piece]] = {
-        say("quantity"): [row.meaning if in_english() else MEANINGS[row.quantity].partition(":")[0] for row in shown],
+        say("quantity"): [_meaning(row) for row in shown],
         texts[0]: [
-            f"{_item(row.item) if row.item else _method(row.method)} {row.limit_state}".strip() for row in shown
+            f"{item_in_words(row.item) if row.item else in_words('method', row.method)} {row.limit_state}".strip()
+            for row in shown
         ],
         texts[1]: [row.symbol or NONE for row in shown],
         say("value"): [

@@ -12,13 +12,14 @@ from typing import Any, NamedTuple
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import shown_dispersion
-from dondolo._base.wording import in_english, say
+from dondolo._base.wording import in_english, property_name
 from dondolo.curves.fragility import Fragility
 from dondolo.figures.style import mechanism_name
 from dondolo.reporting.content import BETA, THETA, Column, Piece, Symbol, Table, level_head, level_unit, said
 from dondolo.reporting.numerals import NONE, number, parameter, percent, probability, whole
 from dondolo.reporting.statuses import short_status
 from dondolo.reporting.units import UNITS, cell
+from dondolo.reporting.words import in_words
 
 
 class _Shown(NamedTuple):
@@ -36,7 +37,7 @@ def _in_unit(*before: Any) -> Callable[[str], Piece]:
 
 def source_name(name: str) -> str:
     """A property whose uncertainty is a source."""
-    return name if in_english() else say(name.replace("_", " "))
+    return name if in_english() else property_name(name)
 
 
 def _status(name: str) -> str:
@@ -59,7 +60,7 @@ _COLUMNS: dict[str, _Shown] = {
     "walls": _Shown("walls", whole),
     "weight": _Shown("weight", number),
     "p_occ": _Shown(Symbol("p", "occ"), number),
-    "occurrence": _Shown("occurrence", say, True),
+    "occurrence": _Shown("occurrence", partial(in_words, "occurrence"), True),
     "alternative": _Shown("alternative", str, True),
     "upper_asymptote": _Shown("can occur", percent),
     # Lognormal curves

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.wording import decimal, in_english, say
+from dondolo._base.wording import decimal, in_english, property_name, say
 from dondolo._fortran.library import Property, build_variant, constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
@@ -19,7 +19,6 @@ from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
 from dondolo.records.synthetic import SYNTHETIC
-from dondolo.reporting import headings
 from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
     Column,
@@ -38,6 +37,7 @@ from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.reporting.units import UNITS, Unit
+from dondolo.reporting.words import in_words
 from dondolo.walls.chains import TABLES, Chain
 from dondolo.walls.mechanisms import OneSidedWall
 from dondolo.walls.parts import parts_of
@@ -169,7 +169,7 @@ def _wall_facts(run: Run) -> Facts:
             continue
         unit, factor = _unit(row)
         if value := _set(row.name, effective_property(wall, row.name), factor):
-            pairs.append((say(row.name.replace("_", " ")), (value, f" {unit}" if unit else "")))
+            pairs.append((property_name(row.name), (value, f" {unit}" if unit else "")))
     if isinstance(wall, TabulatedWall):
         pairs += wall._facts()[:1]
     if wall.base_hinge_depth > 0.0 and getattr(wall, "hinge_depth", None) is None:
@@ -236,7 +236,7 @@ def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     # Plates of ties and the like are 0 where they are not given: they have a column only where a wall has them.
     absent = {name for name in units if all(_is_absent(effective_property(wall, name)) for wall in walls)}
     columns: list[tuple[Piece, Sequence[Piece]]] = [
-        (say(name.replace("_", " ")) + (f" [{unit.name}]" if unit.name else ""), cells)
+        (property_name(name) + (f" [{unit.name}]" if unit.name else ""), cells)
         for name, unit in units.items()
         if name not in absent and any(cells := [known[name][i] for i in having])
     ]
@@ -258,7 +258,7 @@ def _unit(row: Property) -> Unit:
     """The unit that a property is shown in."""
     if row.name in _INSTEAD:
         return Unit(say(_INSTEAD[row.name]))
-    return UNITS.get(row.unit, Unit(row.unit))
+    return UNITS.get(row.unit, Unit(say(row.unit)))
 
 
 def _set(name: str, value: Any, factor: float = 1.0) -> Piece:
@@ -268,7 +268,7 @@ def _set(name: str, value: Any, factor: float = 1.0) -> Piece:
         parts = [part for one in value for part in (between, _set(name, one, factor))]
         return tuple(parts[1:])
     if value is None or isinstance(value, str):
-        return value or "" if in_english() else headings.in_words(name, value or "")
+        return in_words(name, value or "")
     return "" if np.isnan(value) else number(factor * value, 6)
 
 

@@ -13,11 +13,10 @@ from importlib import resources
 from typing import Any
 
 from dondolo._base.arguments import one_of
-from dondolo._base.wording import ENGLISH, Wording, in_words_of
+from dondolo._base.wording import ENGLISH, Wording, in_words_of, named
 from dondolo.errors import DondoloError
 from dondolo.reporting.content import MONTHS, Symbol, in_places
 from dondolo.reporting.numerals import Numeral
-from dondolo.reporting.properties_it import SUPPORTS, property_name
 
 LANGUAGES = ("en", "it")
 
@@ -50,21 +49,28 @@ class Language:
     @property
     def wording(self) -> Wording:
         """Its sentences and its decimal mark."""
-        return ENGLISH if self.code == "en" else Wording(self._said, self.decimal("."))
+        return ENGLISH if self.code == "en" else Wording(self._catalogue.gettext, self.decimal("."))
 
     def in_force(self) -> AbstractContextManager[None]:
         """Say the sentences of all rooms in this language until the end of a block."""
         return in_words_of(self.wording)
 
-    def _said(self, sentence: str) -> str:
-        """A sentence, a note by its code or a property of a wall, in Italian."""
-        found = self._catalogue.gettext(sentence)
-        return found if found != sentence else SUPPORTS.get(sentence) or property_name(sentence)
-
     def text(self, sentence: str, **values: object) -> str:
         """A sentence, with values in the places that it names."""
         found = self._catalogue.gettext(sentence)
         return found.format(**values) if values else found
+
+    def named(self, what: str, name: str, english: str | None = None) -> str:
+        """What has a name, as `dondolo._base.wording.named`."""
+        with self.in_force():
+            return named(what, name, english)
+
+    def all_named(self, what: str) -> dict[str, str]:
+        """All that the catalogue has of a kind, by their names; nothing in English."""
+        # Python's gettext has no other way to list a catalogue.
+        entries: dict[str, str] = getattr(self._catalogue, "_catalog", {})
+        context = f"{what}\4"
+        return {key.removeprefix(context): text for key, text in entries.items() if key.startswith(context)}
 
     def pieces(self, sentence: str, **values: Any) -> tuple[Any, ...]:
         """A sentence as pieces: numbers, symbols and fields stay what they are in the places that it names."""

@@ -72,8 +72,11 @@ def probability(value: float) -> Numeral:
     return NONE if np.isnan(value) else Numeral(shown_probability(value))
 
 
-def chance(value: float, low: float, high: float) -> tuple[Numeral | str, ...]:
-    """A probability with its interval, if known; a tail of the fit is only known to be small."""
+def chance(found: tuple[float, float, float] | None) -> tuple[Numeral | str, ...]:
+    """A probability with its interval, if known; a tail of the fit is only known to be small. A dash for none."""
+    if found is None:
+        return (NONE,)
+    value, low, high = found
     if np.isnan(low) or probability(high) == probability(value):
         return (probability(value),)
     ends = (Numeral(shown_probability(end).replace(" ", _BLANK)) for end in (low, high))

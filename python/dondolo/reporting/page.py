@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.files import as_file
-from dondolo._base.wording import decimal, say
+from dondolo._base.wording import decimal, property_name, say
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._fortran.records import blank_unit
@@ -33,11 +33,11 @@ from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words, measur
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import check_printer, write_pdf
-from dondolo.reporting.relazione.terms import warning
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
 from dondolo.reporting.tested import sentences
 from dondolo.reporting.ties import ties
+from dondolo.reporting.words import warning
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -321,7 +321,7 @@ def _lead(run: Run) -> str:
     parts = []
     if run.uncertain is not None:
         everything, many = run.uncertain.typology.walls, len(run.uncertain.sample)
-        wall, names = everything[many], ", ".join(say(name.replace("_", " ")) for name in run.uncertain.sources)
+        wall, names = everything[many], ", ".join(map(property_name, run.uncertain.sources))
         words = {"wall": wall.name, "mechanism": inputs.mechanism_of(wall), "names": names}
         parts.append(say("{wall}: {mechanism}, its {names} uncertain", **words))
         parts.append(say("{variants} variants, and {others} beside them", variants=many, others=len(everything) - many))

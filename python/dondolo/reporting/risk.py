@@ -17,9 +17,9 @@ from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, figure, level_unit, pieces, state_name
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import number, percent
-from dondolo.reporting.relazione.terms import warning
 from dondolo.reporting.run import Run
 from dondolo.reporting.typology import combined
+from dondolo.reporting.words import warning
 
 _YEARS = 50.0
 

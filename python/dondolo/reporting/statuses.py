@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.wording import in_english, say
+from dondolo._base.wording import in_english, named, say
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import Piece, Table, level_head
@@ -29,23 +29,11 @@ STATUSES = {
     "decreasing": "the state does not become more frequent with the level: no curve",
     "not_converged": "the maximum of the likelihood was not found: no curve",
 }
-# Their Italian
-FITS = {
-    "ok": "curva determinata",
-    "extrapolated": "mediana fuori dai livelli dell'analisi: da usare con cautela",
-    "nearly_flat": "pendenza non significativa: parametri non affidabili",
-    "no_collapse": "nessun collasso ad alcun livello: nessuna curva",
-    "all_collapse": "collasso in tutte le analisi: nessuna curva",
-    "separated": "nessuna sovrapposizione tra livelli con e senza collassi: nessuna curva",
-    "single_level": "un solo livello: nessuna curva",
-    "decreasing": "collassi non crescenti con il livello: nessuna curva",
-    "not_converged": "stima non convergente: nessuna curva",
-}
 
 
 def status_meaning(status: str) -> str:
     """A status of a fit in words."""
-    return STATUSES[status] if in_english() else FITS[status]
+    return named("status", status, STATUSES[status])
 
 
 def short_status(status: str) -> str:

@@ -284,7 +284,7 @@ def _drawn(people: Typology) -> dict[str, Any]:
         samples = people["all"].bootstrap(n_resamples=_SAMPLES, over=("walls",) if stored else ("records", "walls"))
         intervals = samples.parameter_interval()
     except DondoloError as error:
-        return {"problem": str(error) if in_english() else "v. messaggio della libreria in inglese"}
+        return {"problem": str(error) if in_english() else say("see the English message of the library")}
     low, high = samples.mean_interval()
     levels = {"im_level": people.levels, "mean_fraction": curve.mean_fraction, "mean_low": low, "mean_high": high}
     return {

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.files import as_file
+from dondolo._base.wording import named, say
 from dondolo._fortran.files import REAL, RUN_FILE, TEXT, Column, whole_file
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._fortran.walls import is_note
@@ -22,9 +23,8 @@ from dondolo._storage.run_file import RunFile, read_run_file
 from dondolo._storage.tables import digits
 from dondolo.errors import DondoloError, InputError, visible
 from dondolo.exchange.result_file import ResultFile
-from dondolo.reporting import headings
 from dondolo.reporting.language import Language
-from dondolo.reporting.relazione.terms import warning
+from dondolo.reporting.words import heading, in_words, warning
 
 # Rows that a sheet of Excel has
 _MOST_ROWS = 2**20
@@ -90,7 +90,8 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
     check_replaced(target, "workbook")
     as_file("prefix", prefix)
     run = read_run_file(os.fspath(prefix) + RUN_FILE)
-    case = [list(column) for column in zip(*_case(run, language), strict=True)]
+    with language.in_force():
+        case = [list(column) for column in zip(*_case(run, language), strict=True)]
     sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], case)}
     for written in run.files:
         table = ResultFile(os.fspath(prefix) + written.name, run)
@@ -103,12 +104,13 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
         if not _SHEET.fullmatch(name) or name.lower() in map(str.lower, sheets):
             raise InputError(f"{run.path}: files: '{written.name}' is not the name of a table")
         sheets[name] = (list(table), columns)
-    content = _packed(sheets, run, language, target)
+    with language.in_force():
+        content = _packed(sheets, run, target)
     with whole_file(target) as part:
         part.write_bytes(content)
 
 
-def _packed(sheets: dict[str, _Sheet], run: RunFile, language: Language, target: Path) -> bytes:
+def _packed(sheets: dict[str, _Sheet], run: RunFile, target: Path) -> bytes:
     """A workbook, packed in memory: XlsxWriter leaves a file half open that a full disk has no room for."""
     from xlsxwriter import Workbook
     from xlsxwriter.exceptions import FileCreateError
@@ -121,11 +123,8 @@ def _packed(sheets: dict[str, _Sheet], run: RunFile, language: Language, target:
             # The same bytes for the same run: the date is that of the run, with which its name begins.
             book.set_properties({"author": "dondolo", "created": run.begun})
             for name, (titles, cells) in sheets.items():
-                if language.code == "it":
-                    heads = [headings.heading(title) for title in titles]
-                    _add_sheet(book, headings.SHEETS.get(name, name), heads, _in_italian(titles, cells))
-                else:
-                    _add_sheet(book, _OTHERWISE.get(name, name), titles, cells)
+                title = named("name of a sheet", name, _OTHERWISE.get(name, name))
+                _add_sheet(book, title, [heading(one) for one in titles], _in_words(titles, cells))
             book.close()
     except (OSError, FileCreateError) as error:
         reason = error if isinstance(error, OSError) else error.args[0]
@@ -138,15 +137,15 @@ def _packed(sheets: dict[str, _Sheet], run: RunFile, language: Language, target:
     return packed.getvalue()
 
 
-def _in_italian(titles: list[str], columns: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
-    """Columns whose words are Italian."""
+def _in_words(titles: list[str], columns: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
+    """Columns whose words are those of the language in force."""
     known = dict(zip(titles, columns, strict=True))
     made: list[Sequence[Any]] = []
     for title, cells in known.items():
         if title == "meaning":
-            cells = [headings.meaning(*pair) for pair in zip(known["quantity"], cells, strict=True)]
+            cells = [named("quantity of a check", *pair) for pair in zip(known["quantity"], cells, strict=True)]
         elif title not in ("wall", "group", "value") and not is_note(title):
-            cells = [headings.in_words(title, one) if isinstance(one, str) else one for one in cells]
+            cells = [in_words(title, one) if isinstance(one, str) else one for one in cells]
         made.append(cells)
     return made
 
@@ -160,8 +159,7 @@ def _case(run: RunFile, language: Language) -> list[list[Any]]:
                 value = " ".join(map(str, value))
             is_plain = value is None or isinstance(value, (bool, str)) or _is_number(value)
             rows.append([group, name, value if is_plain else str(value)])
-    word = "avvertenza" if language.code == "it" else "warning"
-    return rows + [["", word, warning(language, one)] for one in run.warnings]
+    return rows + [["", say("warning"), warning(language, one)] for one in run.warnings]
 
 
 def _values(column: Column) -> Sequence[Any]:

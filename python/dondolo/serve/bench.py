@@ -35,10 +35,9 @@ from dondolo.records.codes import CHECK_OPTIONS
 from dondolo.records.suite import intensities
 from dondolo.records.synthetic import SYNTHETIC
 from dondolo.reporting.language import LANGUAGES, Language
-from dondolo.reporting.properties_it import MEANINGS
-from dondolo.reporting.relazione.terms import BENDING
-from dondolo.reporting.relazione.terms import status as status_in_words
-from dondolo.reporting.relazione.terms import warning as warning_in_words
+from dondolo.reporting.statuses import STATUSES
+from dondolo.reporting.words import BENDING
+from dondolo.reporting.words import warning as warning_in_words
 from dondolo.serve.levels import chosen_levels
 from dondolo.serve.pictures import motion_of, picture
 from dondolo.walls.ties import ties_without_anchor
@@ -160,7 +159,7 @@ class Bench:
         groups["records"] = {"catalogue": str(self.catalogue)} | {
             name: value for name, value in groups.get("records", {}).items() if name != "catalogue"
         }
-        return case_text(groups, commented=True, meanings=MEANINGS if lang == "it" else None) + "\n"
+        return case_text(groups, commented=True, meanings=_language(lang).all_named("property of a case")) + "\n"
 
     def curve(self, asked: Mapping[str, Any], stop: threading.Event | None = None) -> dict[str, Any]:
         """The curve of a case, its numbers, its drawing, and what it is compared with.
@@ -253,7 +252,7 @@ class Bench:
         wall, fit, stripes = found.case.population.walls[0], found.fragility, found.stripes
         answer: dict[str, Any] = {
             "status": fit.status,
-            "sentence": status_in_words(language, fit.status),
+            "sentence": language.named("status", fit.status, STATUSES[fit.status]),
             "im": stripes.im,
             "stripes": [
                 stripes.levels.tolist(),
@@ -333,7 +332,7 @@ def _motions(records: tuple[dd.Record, ...]) -> Motions:
 
 
 @functools.cache
-def _known_language(code: str) -> Language:
+def known_language(code: str) -> Language:
     """A language, whose catalogue takes longer to read than a curve to fit."""
     return Language(code)
 
@@ -341,7 +340,7 @@ def _known_language(code: str) -> Language:
 def _language(code: Any) -> Language:
     """The language that a page asks for."""
     one_of("lang", code, LANGUAGES)
-    return _known_language(code)
+    return known_language(code)
 
 
 def curve_points(fit: Fragility, last: float) -> dict[str, Any]:

@@ -39,8 +39,7 @@ from dondolo._base.files import read_text
 from dondolo._fortran.library import constants, properties
 from dondolo.analysis.request import check_threads
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.reporting.properties_it import MEANINGS
-from dondolo.serve.bench import Bench, groups_of, other_task, refusal
+from dondolo.serve.bench import Bench, groups_of, known_language, other_task, refusal
 from dondolo.serve.documents import DOCUMENTS, available_documents, make_document
 
 # What answers may take at the end of the server [s]
@@ -296,7 +295,9 @@ def _no_number(word: str) -> float:
 
 
 def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, Any]:
-    """What the page needs once: its case, the tables of properties, the records."""
+    """What the page needs once: its case, the tables of properties, the records, its words in other languages."""
+    italian = known_language("it")
+    meanings = italian.all_named("property of a case")
     tables = {
         group: {
             row.name: {
@@ -308,7 +309,7 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
                 "choices": row.choices,
                 "owners": row.owners,
                 "bounds": row.bounds,
-                "meaning": {"en": row.meaning, "it": MEANINGS.get(row.name, row.name)},
+                "meaning": {"en": row.meaning, "it": meanings[row.name]},
             }
             for row in properties(group)
         }
@@ -317,6 +318,9 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
     return {
         "settings": start,
         "lang": lang,
+        "words": {
+            "it": {f"{what}s": italian.all_named(f"{what} of the page") for what in ("word", "label", "refusal")}
+        },
         "properties": tables,
         "records": [record.name for record in bench.records],
         "catalogue": bench.catalogue.name,

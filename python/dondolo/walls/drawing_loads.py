@@ -133,7 +133,7 @@ def caption(wall: MasonryWall) -> list[str]:
             # 0 is none, of all but preload
             if (value := effective_property(wall, name)) is not None and (np.any(value) or name == "tie_preload"):
                 numbers = dict.fromkeys(decimal(f"{factor * one:.4g}") for one in np.atleast_1d(value))
-                parts.append(f"{say(words)} {(', ' if in_english() else ' e ').join(numbers)}{unit}")
+                parts.append(f"{say(words)} {(', ' if in_english() else say(' and ')).join(numbers)}{unit}")
         if parts:
             lines += textwrap.wrap(f"{head}: {'; '.join(parts)}", _ACROSS)
     return lines

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, argument_error, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
-from dondolo._base.wording import in_english, say
+from dondolo._base.wording import in_english, named, say
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import BUILDING_NAMES, Motion, felt_motion, support_notes
 from dondolo._fortran.handles import Handle
@@ -460,7 +460,8 @@ def _said(note: DondoloWarning) -> str:
         return str(note)
     count, of = (int(note.numbers.get(name, 1)) for name in ("walls", "of_walls"))
     one = say("of the wall") if of == 1 else say("of 1 wall")
-    return say(note.code, walls=one if count == 1 else say("of {number} walls", number=count))
+    walls = one if count == 1 else say("of {number} walls", number=count)
+    return named("note on supports", note.code, str(note)).format(walls=walls)
 
 
 def property_of(wall: Wall, name: str) -> Any:

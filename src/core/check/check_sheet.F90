@@ -53,7 +53,7 @@ module dondolo_check_sheet
       & quantity_type('tc', 'T_C', 's', 'period at which the constant velocity begins at the site'), &
       & quantity_type('pga', 'a_g S', 'g', 'peak acceleration at the site'), &
       & quantity_type('floor_pga', 'a_Z', 'g', 'peak acceleration of the ground, or at the level of the wall'), &
-      & quantity_type('modal_pga', 'a_Z modes', 'g', 'what the modes of the building give there, less than the ground'), &
+      & quantity_type('modal_pga', 'a_Z,m', 'g', 'what the modes of the building give there, less than the ground'), &
       & quantity_type('knowledge_factor', 'FC', '', 'confidence factor'), &
       & quantity_type('knowledge_given', 'FC_LC', '', 'confidence factor that is given, less than the code asks for'), &
       & quantity_type('behaviour', 'q', '', 'behaviour factor'), &
@@ -143,7 +143,7 @@ module dondolo_check_sheet
       & quantity_type('period', 'T', 's', 'equivalent period'), &
       & quantity_type('damping', 'xi', '', 'equivalent damping ratio'), &
       & quantity_type('spectral_demand', 'S_eZ(T)', 'g', 'spectral acceleration of the ground, or at the level of the wall'), &
-      & quantity_type('modal_demand', 'S_eZ modes', 'g', 'what the modes of the building give, less than the ground'), &
+      & quantity_type('modal_demand', 'S_eZ,m', 'g', 'what the modes of the building give, less than the ground'), &
       & quantity_type('demand', 'd_D', 'm', 'displacement that the earthquake asks for'), &
       & quantity_type('ratio', 'C/D', '', 'capacity / demand, a_gC/a_g; at least 1: verified'), &
       & quantity_type('required', '', '', '1: the verdict on the wall rests on it, 0: it is information'), &

@@ -215,7 +215,8 @@ contains
       working = working_type(expression, numbers)
    end subroutine put_demand
 
-   !> The formula of an ordinate of the spectrum of the ground; in a building it is a sum over modes
+   !> The formula of an ordinate of the spectrum of the ground; in a building it is a sum over modes, which has none where they
+   !> give more than the ground
    pure subroutine put_ordinate_formula(spectrum, period, damping, expression, numbers)
       type(floor_spectrum_type), intent(in) :: spectrum
       !> Period [s] and damping ratio
@@ -225,7 +226,14 @@ contains
 
       expression = ''
       numbers = ''
-      if (size(spectrum%period) > 0) return
+      if (size(spectrum%period) > 0) then
+         associate (modal => spectrum%modal_acceleration(period, damping), ground => spectrum%ground%acceleration(period, damping))
+            if (.not. modal < ground) return
+            expression = 'max(S_eZ,m, S_e(T))'
+            numbers = 'max('//trim(shown(modal))//', '//trim(shown(ground))//')'
+         end associate
+         return
+      end if
       associate (ground => spectrum%ground, tb => spectrum%ground%corners(1), tc => spectrum%ground%corners(2), &
          & td => spectrum%ground%corners(3))
          numbers = times(ground%pga, damping_factor(damping))//' * '//trim(shown(ground%amplification))

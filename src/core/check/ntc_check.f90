@@ -143,7 +143,7 @@ contains
       associate (modal => spectrum%modal_peak(), ground => spectrum%ground%pga)
          if (modal < ground) then
             call sheet%add(method, state, 'modal_pga', modal, 'C7.2.3')
-            call sheet%add(method, state, 'floor_pga', ground, working=working_type('max(modes, a_g S)', 'max('// &
+            call sheet%add(method, state, 'floor_pga', ground, working=working_type('max(a_Z,m, a_g S)', 'max('// &
                & trim(shown(modal))//', '//trim(shown(ground))//')'))
          else
             call sheet%add(method, state, 'floor_pga', modal, 'C7.2.3')

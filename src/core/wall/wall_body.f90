@@ -78,12 +78,12 @@ contains
          !> What it follows from
          character(len=*), intent(in) :: from
 
-         if (.not. input%has(name)) then
-            call input%set(name, value)
-         else if (abs(input%number(name) - value) > same*abs(value)) then
-            call problems%note(name//' = '//to_text(input%number(name))//': must be '//to_text(value)//', '//from// &
-               & '; leave it out', out_of_range, name)
+         if (input%has(name)) then
+            if (abs(input%number(name) - value) > same*abs(value)) call problems%note(name//' = '// &
+               & to_text(input%number(name))//': must be '//to_text(value)//', '//from//'; leave it out', out_of_range, name)
          end if
+         ! To the bit, however few digits are given
+         call input%set(name, value)
       end subroutine follow
 
    end subroutine take_sections

@@ -8,7 +8,7 @@ from itertools import groupby
 
 from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
-from dondolo.checks.side_by_side import Chance, side_by_side
+from dondolo.checks.side_by_side import side_by_side
 from dondolo.reporting.blocks import Block, CaptionedTable, Heading, Note, Picture, symbol_of
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, chance, number, whole
@@ -215,19 +215,14 @@ def _states(document: Document, one: Subject, name: str) -> CaptionedTable:
     if any(line.at_site for line in lines):
         words = _("Checks at a glance; probabilities of collapse by the fragility curve, with their 95 % interval")
         chance_of = document.text(_("P(collapse) at"))
-        columns[chance_of, " ", ags, " ", allowed] = [_chance(line.at_allowed) for line in lines]
-        columns[document.text(_("P(collapse) at the site"))] = [_chance(line.at_site) for line in lines]
+        columns[chance_of, " ", ags, " ", allowed] = [chance(line.at_allowed) for line in lines]
+        columns[document.text(_("P(collapse) at the site"))] = [chance(line.at_site) for line in lines]
     return CaptionedTable(Table.of(columns, (verdicts,)), document.titled(document.text(words), name))
 
 
 def _amount(value: float, unit: Unit) -> Piece:
     """A capacity or a demand with its unit; a dash for none."""
     return NONE if math.isnan(value) else quantity(value, unit)
-
-
-def _chance(found: Chance | None) -> Piece:
-    """A probability of collapse with its interval; a dash for none."""
-    return NONE if found is None else chance(*found)
 
 
 def _items(document: Document, one: Subject, name: str) -> CaptionedTable:

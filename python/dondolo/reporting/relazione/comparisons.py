@@ -56,9 +56,13 @@ def comparisons(document: Document) -> list[Block]:
             ),
             a0=symbol_of("a_0*"),
             d0=symbol_of("d_0*"),
-            period=("1.68 π √(0.4/0.6) √(", symbol_of("d_0*"), "/", symbol_of("a_0*"), ")")
-            if document.language.code == "en"
-            else ("1,68 π √(0,4/0,6) √(", symbol_of("d_0*"), "/", symbol_of("a_0*"), ")"),
+            period=(
+                document.language.decimal("1.68 π √(0.4/0.6) √("),
+                symbol_of("d_0*"),
+                "/",
+                symbol_of("a_0*"),
+                ")",
+            ),
         ),
         *_bare_steps(document),
         *document.written("judgement", _("reasoned judgement of the designer on the results")),

@@ -14,7 +14,7 @@ from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.project import Project
 from dondolo.reporting.relazione.subjects import Subject, Subjects
-from dondolo.reporting.relazione.terms import MEANINGS, item_in_words, with_article
+from dondolo.reporting.words import item_in_words, the_item_in_words
 
 # What sentences of the chapters are marked by for the catalogues
 _ = str
@@ -113,7 +113,7 @@ class Document:
             # What the numbers of a verdict mean is of no use where there are words.
             words = row.meaning.partition(";")[0].removeprefix("1: ").removeprefix("0: ")
             return self.text(_("outcome")) if row.quantity == "verified" else words.partition(", 0: ")[0]
-        return MEANINGS.get(row.quantity, row.quantity).partition(":")[0]
+        return self.language.named("quantity of a check", row.quantity).partition(":")[0]
 
     @property
     def _where(self) -> str:
@@ -136,8 +136,10 @@ class Document:
 
     def item(self, name: str) -> str:
         """An item of the calculation, such as 'load 1', in words."""
-        return name if self.language.code == "en" else item_in_words(name)
+        with self.language.in_force():
+            return item_in_words(name)
 
     def the_item(self, name: str) -> str:
         """An item within a sentence: in Italian with its article."""
-        return name if self.language.code == "en" else with_article(item_in_words(name))
+        with self.language.in_force():
+            return the_item_in_words(name)

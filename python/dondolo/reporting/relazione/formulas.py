@@ -32,6 +32,8 @@ _COHERENT |= {name: UNITS[name] for name in ("N", "N/m", "N m", "N m/m", "N m2",
 _GIVEN = {
     "g": "m/s2", "sum stabilising": "N m/m", "sum overturning": "N m/m", "sum P": "N/m", "sum P z": "N m/m",
     "sum P z^2": "N m2/m", "alpha(d_C)": "",
+    # Spectral accelerations of the modes of a building and of the ground
+    "S_eZ,m": "g", "S_e(T)": "g",
     # Of the period of a free element
     "kappa": "", "lambda": "", "L": "m", "W": "N/m3",
     # Of a strip: thrusts and ties, and the upper block about the hinge between the two

@@ -22,7 +22,6 @@ from dondolo.reporting.relazione.outcome import notes_of, runs_of
 from dondolo.reporting.relazione.site_grid import coordinates, grid
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import of_tie
-from dondolo.reporting.relazione.terms import MECHANISMS
 from dondolo.reporting.relazione.ties import open_ties_of
 from dondolo.reporting.tested import sentences
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
@@ -411,7 +410,7 @@ def modelling(document: Document) -> list[Block]:
 
 def _mechanism(document: Document, mechanism: str) -> str:
     """A mechanism in the words of the document."""
-    return mechanism_name(mechanism) if document.language.code == "en" else MECHANISMS[mechanism]
+    return document.language.named("mechanism", mechanism, mechanism_name(mechanism))
 
 
 def _travels(document: Document) -> tuple[Any, ...]:

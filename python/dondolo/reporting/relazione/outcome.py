@@ -23,8 +23,10 @@ from dondolo.reporting.numerals import NONE, Numeral, chance, number, probabilit
 from dondolo.reporting.relazione.checks import governed, method_name, outcome, value_of
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_fragility, draw_indices
-from dondolo.reporting.relazione.terms import status, warning
+from dondolo.reporting.relazione.sums import without_of
+from dondolo.reporting.statuses import STATUSES
 from dondolo.reporting.units import CENTIMETRES, UNITS, cell
+from dondolo.reporting.words import warning
 
 _CHECKS = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
 _DYNAMIC = (("dynamic", "SLV"), ("dynamic", "SLC"))
@@ -55,6 +57,10 @@ def histories(document: Document) -> list[Block]:
         columns[head] = [cell(x, CENTIMETRES) if lengths else whole(x) for x in values]
     columns[document.text(_("outcome"))] = [outcome(document, one.check, key) for _name, one, key in made]
     text = document.text(_("outcome"))
+    tied = _(
+        "{what}: the time histories contain all ties, and their capacity is that of the curve with all of them; the"
+        " nonlinear check does not count {ties}."
+    )
     return [
         *blocks,
         CaptionedTable(
@@ -67,6 +73,11 @@ def histories(document: Document) -> list[Block]:
                 " the mean."
             ),
             d0=symbol_of("d_0*"),
+        ),
+        *(
+            document.say(tied, what=f"{name}, {state}", ties=document.the_item(ties))
+            for name, one, (_method, state) in made
+            if (ties := without_of(one, state))
         ),
         document.say(
             _(
@@ -109,7 +120,9 @@ def fragility(document: Document) -> list[Block]:
         (document.text(_("probability at")), " ", symbol_of("a_g S")): [
             probability(float(curve(pga))) if curve.has_fit else NONE for _name, curve in curves
         ],
-        document.text(_("status")): [status(document.language, curve.status) for _name, curve in curves],
+        document.text(_("status")): [
+            document.language.named("status", curve.status, STATUSES[curve.status]) for _name, curve in curves
+        ],
     }
     blocks.append(
         CaptionedTable(
@@ -227,9 +240,7 @@ def _mechanisms(document: Document) -> CaptionedTable:
             value_of(document, one.check, row) for (_name, one), row in zip(ordered, periods, strict=True)
         ]
     if any(chances):
-        columns[document.text(_("P(collapse) at the site"))] = [
-            NONE if one is None else chance(*one) for one in chances
-        ]
+        columns[document.text(_("P(collapse) at the site"))] = [chance(one) for one in chances]
     caption = document.text(_("Mechanisms beside each other, that of the least safety index last."))
     return CaptionedTable(Table.of(columns), caption, strong=1)
 

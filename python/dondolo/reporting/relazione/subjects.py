@@ -12,8 +12,8 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError, Problem
 from dondolo.exchange.results import Results
-from dondolo.reporting.relazione.terms import BENDING
 from dondolo.reporting.units import UNITS, Unit
+from dondolo.reporting.words import BENDING
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.wall import MasonryWall, Wall

@@ -4,7 +4,7 @@ import { draw, expand, fieldOf, markWrong } from "./form.js";
 import { sentenceFor, sentenceOf } from "./refusals.js";
 import { changed, post, state, whenTold } from "./state.js";
 import { drawing, trace } from "./wall.js";
-import { labelOf, language, make, num, probability, sig, speak, t, the } from "./words.js";
+import { labelOf, language, learn, make, num, probability, sig, speak, t, the } from "./words.js";
 
 const title = /** @type {HTMLInputElement} */ (the("title"));
 /** @type {Record<string, string>} */
@@ -33,6 +33,7 @@ async function begin() {
     properties: begun.properties,
     auto: !("levels" in (begun.settings.stripes || {})),
   });
+  learn(begun.words);
   speak(begun.lang);
   expand();
   words();

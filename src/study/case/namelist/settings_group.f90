@@ -1,5 +1,6 @@
 !> Settings out of the group of a namelist, and back: the table of their properties says what there is.
 module dondolo_case_settings_group
+   use dondolo_base_decimals, only : rounded_to
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : find_property, has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
@@ -147,6 +148,7 @@ contains
          type(property_type), intent(in) :: property
 
          character(len=:), allocatable :: variable
+         real(wp) :: number
          logical :: joins
          integer :: kind
 
@@ -169,7 +171,10 @@ contains
          case (is_list)
             call echo%add(name, variable, settings%list(variable))
          case default
-            call echo%add(name, variable, settings%number(variable), joins)
+            number = settings%number(variable)
+            ! The sum of storeys, whose last digit is that of its rounding
+            if (variable == 'height' .and. settings%has('section_height')) number = rounded_to(number, 15)
+            call echo%add(name, variable, number, joins)
          end select
       end subroutine add
 

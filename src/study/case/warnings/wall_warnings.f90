@@ -216,9 +216,16 @@ contains
       call warn_of_pair(self, 3, overlap_above_thickness, 'interlock_overlap is more than the thickness of the wall: is it '// &
          & 'the length of a stone?', warnings)
       call warn_of_mass(self, warnings)
-      call warn_of_fill(self, warnings)
+      associate (odd => self%odd(filled, pairs))
+         call warn_of_pair(self, filled, restitution_of_solid, 'the restitution e is that of a solid block, though '// &
+            & 'section_fill differs between its storeys; restitution = ''impulse'' has the masses where they are, e = '// &
+            & rounded(odd%value), warnings, 'impulse')
+      end associate
       call warn_of_bending(self, warnings)
       call warn_of_joints(self, warnings)
+      call warn_of_pair(self, lifting, lifted_while_closed, 'the mass of its overburden is not lifted while the joints are '// &
+         & 'closed, but counts there too: medians are 3 % too low to 6 % too high', warnings)
+      call warn_of_alone(self, warnings)
    end subroutine warn
 
    !> Warn of a value that no masonry has: the table of properties asks what may have happened
@@ -241,16 +248,10 @@ contains
             if (odd%number == 0) cycle
             limit = merge(property%usual_least, property%usual_most, k == 1)
             text = trim(property%name)//' = '//rounded(odd%value)//unit
-            if (k == 1) then
-               warning = warning_type(value_below_usual)
-               text = text//' is less than '//to_text(limit)//unit
-            else
-               warning = warning_type(value_above_usual)
-               text = text//' is more than '//to_text(limit)//unit
-            end if
+            warning = begun(merge(value_below_usual, value_above_usual, k == 1), odd)
+            text = text//' is '//merge('less', 'more', k == 1)//' than '//to_text(limit)//unit
             hint = trim(hint_of(property, odd%value))
             if (len(hint) > 0) text = text//': '//hint
-            call warning%about('wall', odd%name)
             call warning%about('variable', trim(property%name))
             call warning%about('unit', trim(property%unit))
             call warning%with('value', odd%value)
@@ -261,7 +262,7 @@ contains
    end subroutine warn_of_value
 
    !> Warn of two values that do not go together
-   subroutine warn_of_pair(self, k, code, text, warnings)
+   subroutine warn_of_pair(self, k, code, text, warnings, value)
       class(wall_warnings_type), intent(in) :: self
       !> Place of the pair
       integer, intent(in) :: k
@@ -269,13 +270,15 @@ contains
       character(len=*), intent(in) :: code, text
       !> Warnings to add to
       type(warnings_type), intent(inout) :: warnings
+      !> What the value of the wall is; absent: it has none
+      character(len=*), intent(in), optional :: value
 
       type(warning_type) :: warning
 
       associate (odd => self%odd(k, pairs))
          if (odd%number == 0) return
-         warning = warning_type(code)
-         call warning%about('wall', odd%name)
+         warning = begun(code, odd)
+         if (present(value)) call warning%with(value, odd%value)
          call add(self, odd, warning, text, warnings)
       end associate
    end subroutine warn_of_pair
@@ -299,32 +302,13 @@ contains
             limit = usual%usual_most*any_shape
             text = 'more than '
          end if
-         warning = warning_type(mass_beside_size)
-         call warning%about('wall', odd%name)
+         warning = begun(mass_beside_size, odd)
          call warning%with('density', odd%value)
          call warning%with('limit', limit)
          call add(self, odd, warning, 'its mass over height times thickness is '//rounded(odd%value)//' kg/m3, '//text// &
             & to_text(limit)//' kg/m3: is it in kg, and of the whole body?', warnings)
       end associate
    end subroutine warn_of_mass
-
-   !> Warn of the restitution of a solid block of walls whose storeys have different shares of masonry
-   subroutine warn_of_fill(self, warnings)
-      class(wall_warnings_type), intent(in) :: self
-      !> Warnings to add to
-      type(warnings_type), intent(inout) :: warnings
-
-      type(warning_type) :: warning
-
-      associate (odd => self%odd(filled, pairs))
-         if (odd%number == 0) return
-         warning = warning_type(restitution_of_solid)
-         call warning%about('wall', odd%name)
-         call warning%with('impulse', odd%value)
-         call add(self, odd, warning, 'the restitution e is that of a solid block, though section_fill differs between its '// &
-            & 'storeys; restitution = ''impulse'' has the masses where they are, e = '//rounded(odd%value), warnings)
-      end associate
-   end subroutine warn_of_fill
 
    !> Warn of strips whose joints bend before they open, which the rigid blocks leave out
    subroutine warn_of_bending(self, warnings)
@@ -339,8 +323,7 @@ contains
          if (odd%number == 0) return
          ! They are good to 4 %
          lower = anint(100.0_wp*median_reduction(odd%value*shown_periods))
-         warning = warning_type(bending_neglected)
-         call warning%about('wall', odd%name)
+         warning = begun(bending_neglected, odd)
          call warning%with('frequency_1_s', odd%value)
          call warning%with('lower_010', lower(1))
          call warning%with('lower_015', lower(2))
@@ -360,33 +343,42 @@ contains
       type(warning_type) :: warning
 
       associate (odd => self%odd(late, pairs))
-         if (odd%number > 0) then
-            warning = warning_type(opening_above_usual)
-            call warning%about('wall', odd%name)
-            call warning%with('opening_edp', odd%value)
-            call warning%with('limit', usual_opening)
-            call add(self, odd, warning, 'its joints open at '//rounded(odd%value)//' of the capacity, more than '// &
-               & to_text(usual_opening)//': it bends rather than rocks; is elastic_period too long?', warnings)
-         end if
+         if (odd%number == 0) return
+         warning = begun(opening_above_usual, odd)
+         call warning%with('opening_edp', odd%value)
+         call warning%with('limit', usual_opening)
+         call add(self, odd, warning, 'its joints open at '//rounded(odd%value)//' of the capacity, more than '// &
+            & to_text(usual_opening)//': it bends rather than rocks; is elastic_period too long?', warnings)
       end associate
-      associate (odd => self%odd(lifting, pairs))
-         if (odd%number > 0) then
-            warning = warning_type(lifted_while_closed)
-            call warning%about('wall', odd%name)
-            call add(self, odd, warning, 'the mass of its overburden is not lifted while the joints are closed, but counts '// &
-               & 'there too: medians are 3 % too low to 6 % too high', warnings)
-         end if
-      end associate
+   end subroutine warn_of_joints
+
+   !> Warn of strips whose joints bend on a building of which one mode is given
+   subroutine warn_of_alone(self, warnings)
+      class(wall_warnings_type), intent(in) :: self
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+
       associate (odd => self%odd(alone, pairs))
          if (odd%number == 0) return
-         warning = warning_type(floor_without_period)
-         call warning%about('wall', odd%name)
+         warning = begun(floor_without_period, odd)
          call warning%with('building_period_s', odd%value)
          call warning%with('second_period_s', odd%value/second_mode)
          call add(self, odd, warning, 'floors of a building of one mode, '//rounded(odd%value)//' s, have no motion near '// &
             & 'elastic_period: list the second mode (about '//rounded(odd%value/second_mode)//' s)', warnings)
       end associate
-   end subroutine warn_of_joints
+   end subroutine warn_of_alone
+
+   !> The warning of a code, about the first of some walls
+   function begun(code, odd) result(warning)
+      character(len=*), intent(in) :: code
+      type(odd_walls_type), intent(in) :: odd
+      type(warning_type) :: warning
+
+      warning = warning_type(code)
+      call warning%about('wall', odd%name)
+   end function begun
 
    !> Add a warning of the first of some walls, and how many there are
    subroutine add(self, odd, warning, text, warnings)
