@@ -58,6 +58,7 @@ from dondolo.walls.chain_parts import Pin as Pin
 from dondolo.walls.chain_parts import PointLoad as PointLoad
 from dondolo.walls.chain_parts import PointMass as PointMass
 from dondolo.walls.chain_parts import PointThrust as PointThrust
+from dondolo.walls.chain_parts import PointTie as PointTie
 from dondolo.walls.chain_parts import Sector as Sector
 from dondolo.walls.mechanisms import Chain as Chain
 from dondolo.walls.mechanisms import Corner as Corner

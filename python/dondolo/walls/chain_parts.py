@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any, Literal
 
 from dondolo._base.arguments import argument_error, as_number, one_of, wrong_type
+from dondolo._fortran.walls import WALL_ABSENT
 
 # Kinds of rows of bodies
 CORNER, MASS, SECTOR = 0, 1, 2
@@ -322,6 +323,99 @@ class PointThrust:
         x, y = _point("at", self.at)
         force, angle = as_number("force", self.force), as_number("angle", self.angle)
         return [self.body, -x, y, 0.0, 0.0, 0.0, 0.0, force, angle, 0.0]
+
+
+@dataclass(frozen=True)
+class PointTie:
+    """A tie between a body of a chain and the ground, or between two bodies.
+
+    It yields and breaks as ties of other walls do (docs/ties.md), and holds the motion outwards.
+
+    Parameters
+    ----------
+    body : int
+        Number of the body, from 1.
+    at : tuple
+        Its anchor (x, y) [m].
+    area : float
+        Section [m2]: the whole of it, not per metre.
+    length : float
+        Length that is free to stretch, as a rule up to its other anchor [m].
+    angle : float, optional
+        Of a tie to the ground: direction of a motion that stretches it, from +x towards +y, outwards if left out [deg].
+    other : int, optional
+        Number of the body at its other end; the ground if left out.
+    other_at : tuple, optional
+        Its anchor on that body [m].
+    modulus : float, optional
+        Modulus of elasticity, 2.06e11 if left out [Pa].
+    strength : float, optional
+        Yield stress, 1.8e8 if left out [Pa].
+    preload : float, optional
+        Stress at rest, 0 if left out [Pa].
+    strain : float, optional
+        Strain at which it or its anchorage breaks, 0.02 if left out.
+    anchor_force : float, optional
+        Force at which its anchor gives way at once; it holds if left out [N].
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> rod = dd.PointTie(3, (2.5, 3.5), 3.1e-4, 5.0)  # from the head of a pier to the ground
+    >>> chord = dd.PointTie(3, (1.5, 3.5), 3.1e-4, 3.0, other=1, other_at=(-1.5, 3.5))  # between two piers
+    >>> rod.angle, chord.other
+    (0.0, 1)
+    """
+
+    body: int
+    at: Point
+    area: float
+    length: float
+    _: KW_ONLY
+    angle: float = 0.0
+    other: int = 0
+    other_at: Point | None = None
+    modulus: float | None = None
+    strength: float | None = None
+    preload: float = 0.0
+    strain: float | None = None
+    anchor_force: float | None = None
+
+    def __post_init__(self) -> None:
+        if (self.other_at is None) != (self.other == 0):
+            raise argument_error("not_together", "other_at", ": must be given with other, a body, and only then")
+
+    def _row(self) -> list[float]:
+        """The numbers of its row."""
+        x, y = _point("at", self.at)
+        far = (0.0, 0.0) if self.other_at is None else _point("other_at", self.other_at)
+        numbers = [as_number(name, getattr(self, name)) for name in ("area", "length")]
+        for name in ("modulus", "strength", "preload", "strain"):
+            given = getattr(self, name)
+            numbers.append(float(WALL_ABSENT[f"tie_{name}"]) if given is None else as_number(name, given))
+        numbers.append(0.0 if self.anchor_force is None else as_number("anchor_force", self.anchor_force))
+        if self.anchor_force is not None and not numbers[-1] > 0.0:
+            raise argument_error("out_of_range", "anchor_force", f" = {numbers[-1]:g}: must be positive")
+        return [self.body, self.other, -x, y, as_number("angle", self.angle), -far[0] + 0.0, far[1], *numbers]
+
+    @classmethod
+    def _of_row(cls, row: Sequence[float]) -> PointTie:
+        """The tie of a row."""
+        far = {"other": int(row[1]), "other_at": (-row[5], row[6])} if row[1] > 0.0 else {}
+        bar = dict(zip(("modulus", "strength", "preload", "strain"), row[9:13], strict=True))
+        anchor = row[13] if row[13] > 0.0 else None
+        at = (-row[2], row[3])
+        return cls(int(row[0]), at, row[7], row[8], angle=row[4], anchor_force=anchor, **bar, **far)
+
+    @property
+    def height(self) -> float:
+        """Height of its anchor [m]."""
+        return self.at[1]
+
+    @property
+    def section(self) -> float:
+        """Section [m2]."""
+        return self.area
 
 
 def flat_bodies(bodies: Sequence[Body]) -> list[float]:

@@ -12,7 +12,9 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.tables import TableColumns, tie_columns
 from dondolo._fortran.walls import open_anchors, tie_states, tie_tallies
 from dondolo._storage.saved import part_of_results
-from dondolo.walls.parts import parts_of
+from dondolo.walls.chain_parts import PointTie
+from dondolo.walls.chains import Chain
+from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.wall import Wall, upload
 
 IntArray = NDArray[np.int32]
@@ -64,9 +66,16 @@ class TieCounts(NamedTuple):
         return tuple(found)
 
 
+def ties_of(wall: Wall) -> tuple[Tie | PointTie, ...]:
+    """The ties of a wall, of a chain as its rows have them."""
+    if isinstance(wall, Chain):
+        return tuple(map(PointTie._of_row, wall._rows("tie_table").tolist()))
+    return parts_of(wall, "ties")
+
+
 def number_of_ties(wall: Wall) -> int:
     """How many ties a wall has."""
-    return len(parts_of(wall, "ties"))
+    return len(ties_of(wall))
 
 
 def ties_without_anchor(wall: Wall) -> list[int]:

@@ -22,6 +22,7 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import UNITS, Unit, cell
 from dondolo.walls.chains import Chain
+from dondolo.walls.drawing_chain import ends_of_ties
 from dondolo.walls.wall import upload
 
 # Rotations at which a chain is looked at, less one, and the degree of the polynomials through them
@@ -234,6 +235,8 @@ def draw_chain(document: Document, one: Subject) -> Any:
         for body, is_opening, corners in wall.outlines(rotation=q):
             look = "white" if is_opening else _STILL if body == 0 else _PALE
             ax.add_patch(Polygon(corners, facecolor=look, edgecolor=_DARK, linewidth=0.9))
+        for ends in ends_of_ties(wall, q):
+            ax.plot(*ends.T, color=_DARK, linewidth=1.2, linestyle=(0, (6, 2, 1, 2)), zorder=4)
         for row in wall._rows("joint_table"):
             body, at = (int(row[1]), (-row[3], row[4])) if row[1] > 0.0 else (int(row[2]), (-row[6], row[7]))
             x, y = wall._moved([at], body, q)[0]
@@ -246,6 +249,8 @@ def draw_chain(document: Document, one: Subject) -> Any:
         ring = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": _DARK, "linewidth": 0.7}
         rest.annotate(str(count), (x, y), ha="center", va="center", fontsize=_WORDS, bbox=ring)
     _arrows(document, rest, wall)
+    for count, (end, _other) in enumerate(ends_of_ties(wall, 0.0), 1):
+        rest.annotate(f"T{count}", end, (4, 4), textcoords="offset points", fontsize=_WORDS)
     low, high = _limits(wall, rotation)
     for ax in (rest, moved):
         ax.set_xlim(low[0], high[0])
@@ -260,6 +265,7 @@ def _limits(wall: Chain, rotation: float) -> tuple[FloatArray, FloatArray]:
     points = [corners for q in (0.0, rotation) for _body, _is_opening, corners in wall.outlines(rotation=q)]
     points += [np.array([(-row[3], row[4])]) for row in wall._rows("joint_table")]
     points += [np.array([(-row[1], row[2])]) for row in wall._rows("action_table")]
+    points += ends_of_ties(wall, 0.0)
     at = wall.motion(0.0)
     found = np.vstack([*points, np.column_stack([at.x, at.y])])
     low, high = found.min(axis=0), found.max(axis=0)

@@ -10,10 +10,11 @@ module dondolo_wall_chain
    use dondolo_base_kinds, only : wp
    use dondolo_wall_chain_equations, only : factor_type, factorise
    use dondolo_wall_chain_part, only : chain_mass_type
+   use dondolo_wall_restraint, only : tie_input_type
    implicit none
    private
 
-   public :: chain_action_type, chain_joint_type, chain_type, guide, motion_type, pin, point_motion
+   public :: chain_action_type, chain_joint_type, chain_tie_type, chain_type, guide, motion_type, pin, point_motion
 
    !> Equations of a pin and of a guide
    integer, parameter, public :: is_pin = 2, is_guide = 1
@@ -46,12 +47,26 @@ module dondolo_wall_chain
       logical :: is_held = .false.
    end type chain_action_type
 
+   !> A tie between a body and the ground, or between two bodies
+   type :: chain_tie_type
+      !> The bodies; 0: the ground
+      integer :: body = 0, other = 0
+      !> Its anchors on them at rest [m]; of one on the ground none is known
+      real(wp) :: at(2) = 0.0_wp, other_at(2) = 0.0_wp
+      !> Of a tie to the ground: in which direction it gets longer, which it keeps
+      real(wp) :: direction(2) = 0.0_wp
+      !> Bar and strength of its anchors; depth and height do not count
+      type(tie_input_type) :: given
+   end type chain_tie_type
+
    !> A chain
    type :: chain_type
       !> Its bodies at rest, its joints and what acts on it
       type(chain_mass_type), allocatable :: bodies(:)
       type(chain_joint_type), allocatable :: joints(:)
       type(chain_action_type), allocatable :: actions(:)
+      !> Its ties, which no motion of the kernel knows
+      type(chain_tie_type), allocatable :: ties(:)
       !> The body whose turn is q, and its sense: 1 towards +x, -1 towards -x
       integer :: driver = 1
       real(wp) :: sense = 1.0_wp
