@@ -13,6 +13,7 @@ module dondolo_wall_body
    use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_wall_interlocking, only : read_interlocking
    use dondolo_wall_lists, only : take
+   use dondolo_wall_panel_places, only : check_panel_places
    use dondolo_wall_rigid_body, only : body_of_sections, faces_at, joined, rigid_body_type, same, section_type
    use dondolo_wall_ties, only : read_ties
    use dondolo_wall_elevation, only : read_elevation, top_of_elevation
@@ -123,6 +124,7 @@ contains
       end do
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
+      if (input%has('axis_x')) call check_panel_places(input, problems)
       call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%restraints, &
          & wall%anchors)
       call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, &

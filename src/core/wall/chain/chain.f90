@@ -4,8 +4,8 @@
 !>
 !>     F(y) = 0, phi_driver = +-q        A y' = e        A y'' = -(dA/dq) y'
 !>
-!> with the same matrix A = dF/dy, and e = 1 in the row of the driver. The positions come from Newton's method, which begins at
-!> those of a rotation nearby; the rates are then exact.
+!> with the same matrix A = dF/dy, and e = 1 in the row of the driver. The positions come from Newton's method, which begins where
+!> the rates of a rotation nearby lead; those of this one are then exact.
 module dondolo_wall_chain
    use dondolo_base_kinds, only : wp
    use dondolo_wall_chain_equations, only : factor_type, factorise
@@ -19,8 +19,12 @@ module dondolo_wall_chain
    !> Equations of a pin and of a guide
    integer, parameter, public :: is_pin = 2, is_guide = 1
 
-   !> Most steps of Newton's method; it converges in four to six
+   !> Most steps of Newton's method; it converges in two to four
    integer, parameter :: most_steps = 30
+
+   !> Step of it after which the next is below rounding, since it is of the order of the square, and what that may be / size of the
+   !> positions
+   real(wp), parameter :: small_step = 0.1_wp*sqrt(epsilon(1.0_wp)), smallest_step = 4.0_wp*epsilon(1.0_wp)
 
    !> A joint between two bodies, or of one with the ground
    type :: chain_joint_type
@@ -157,10 +161,15 @@ contains
 
       type(factor_type) :: factor
       real(wp), allocatable :: left(:), a(:, :)
-      real(wp) :: change, before
+      real(wp) :: change, before, large
       integer :: i, n
 
       n = 3*size(self%bodies)
+      if (allocated(motion%rate)) then
+         associate (ahead => q - motion%q)
+            motion%y = motion%y + ahead*(motion%rate + 0.5_wp*ahead*motion%bend)
+         end associate
+      end if
       motion%q = q
       is_there = .false.
       before = huge(1.0_wp)
@@ -172,15 +181,12 @@ contains
             motion%y = motion%y - step
             change = maxval(abs(step))
          end associate
-         ! Below the rounding of positions steps no longer shrink.
-         if (change <= 4.0_wp*epsilon(1.0_wp)*max(1.0_wp, maxval(abs(motion%y)))) exit
-         if (change < 1.0e4_wp*epsilon(1.0_wp)*max(1.0_wp, maxval(abs(motion%y))) .and. change >= 0.5_wp*before) exit
+         large = max(1.0_wp, maxval(abs(motion%y)))
+         ! The last step, which changes no derivative; where an equation is ill-conditioned steps end above it, and no longer shrink.
+         if (before <= small_step*large .and. (change <= smallest_step*large .or. change >= 0.5_wp*before)) exit
          before = change
       end do
       if (i > most_steps) return
-      call set_equations(self, q, motion%y, left, a)
-      call factorise(factor, a)
-      if (factor%rank < n) return
       motion%sign = factor%sign
       left = 0.0_wp
       left(n) = 1.0_wp
