@@ -296,6 +296,7 @@ COLUMNS = {
     "tie_preload": "pretensione della catena",
     "tie_strain": "deformazione ultima della catena",
     "tie_anchor_force": "resistenza dell'ancoraggio della catena",
+    "tie_anchor_total": "resistenza totale dell'ancoraggio della catena",
     "tie_plate_width": "larghezza della piastra della catena",
     "tie_plate_height": "altezza della piastra della catena",
     "tie_plate_thickness": "spessore della piastra della catena",

@@ -65,7 +65,8 @@ MEANINGS = {
     "tie_height": "quota dell'ancoraggio di ogni catena sopra la base",
     "tie_depth": "distanza di ogni ancoraggio dalla faccia esterna, 0 se non assegnata",
     "tie_area": "sezione di ogni catena al metro di parete: quella di una barra / interasse",
-    "tie_bar": "diametro della barra di ogni catena, con tie_spacing, al posto di tie_area",
+    "tie_bar": "diametro della barra di ogni catena, con tie_spacing, al posto di tie_area; di un cantonale senza"
+    " interasse",
     "tie_spacing": "interasse delle barre di ogni catena lungo la parete",
     "tie_length": "lunghezza di ogni catena libera di allungarsi, di regola fino all'altro ancoraggio",
     "tie_modulus": "modulo elastico di ogni catena, 2,06e11 Pa se non assegnato",
@@ -73,6 +74,8 @@ MEANINGS = {
     "tie_preload": "tensione di ogni catena a riposo, minore dello snervamento, 0 se non assegnata",
     "tie_strain": "deformazione per cui ogni catena o il suo ancoraggio si rompe, 0,02 se non assegnata",
     "tie_anchor_force": "forza al metro di parete per cui ogni ancoraggio cede di colpo; nessuna se non assegnata",
+    "tie_anchor_total": "forza per cui l'ancoraggio di ogni catena di un cantonale cede di colpo, in tutto e non al metro;"
+    " nessuna se non assegnata",
     "tie_plate_width": "larghezza del capochiave di ogni catena, da cui segue la forza dell'ancoraggio, al posto di"
     " tie_anchor_force",
     "tie_plate_height": "altezza del capochiave",
@@ -154,11 +157,13 @@ MEANINGS = {
     "bodies": "file CSV dei corpi rigidi",
     "joints": "file CSV delle cerniere e delle guide tra di essi",
     "actions": "file CSV di carichi, masse spinte e spinte in punti dei corpi",
+    "ties": "file CSV delle catene, che trattengono i corpi verso l'esterno",
     "driver": "numero del corpo la cui rotazione è q",
     "gravity_share": "parte della gravità che agisce nel piano del moto",
     "body_table": "righe dei corpi come numeri, 11 per riga, al posto del loro file",
     "joint_table": "righe dei vincoli come numeri, 8 per riga, al posto del loro file",
     "action_table": "righe delle azioni come numeri, 10 per riga, al posto del loro file",
+    "tie_table": "righe delle catene come numeri, 14 per riga, al posto del loro file",
     "period": "periodi dei modi dell'edificio su cui sta la parete",
     "damping": "loro smorzamenti, o uno per tutti; 0,05 se non assegnati",
     "participation": "loro coefficienti di partecipazione per la forma alla quota della parete, non in percentuale",

@@ -12,8 +12,7 @@ from dondolo._fortran.walls import WALL_ABSENT
 from dondolo.checks.ntc import CodeCheck
 from dondolo.checks.side_by_side import ties_not_counted
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.walls.parts import Tie
-from dondolo.walls.ties import ties_of
+from dondolo.walls.ties import Bar, ties_of
 
 
 def sums_of(items: Sequence[CalculationItem]) -> dict[str, float]:
@@ -36,7 +35,7 @@ def is_held(item: CalculationItem) -> bool:
     return item.item.startswith(("tie", "friction"))
 
 
-def of_tie(tie: Tie, name: str) -> float:
+def of_tie(tie: Bar, name: str) -> float:
     """A property of a tie, or the default that the calculation takes for it."""
     given = getattr(tie, name)
     return float(WALL_ABSENT[f"tie_{name}"] if given is None else given)

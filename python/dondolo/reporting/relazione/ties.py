@@ -13,7 +13,7 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_anchor
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import UNITS, cell
-from dondolo.walls.ties import ties_of
+from dondolo.walls.ties import given_ties
 
 
 def ties(document: Document) -> list[Block]:
@@ -22,7 +22,7 @@ def ties(document: Document) -> list[Block]:
     anchored: list[float | None] = []
     for is_whole in (False, True):
         several = [(name, one) for name, one in document.each() if one.is_whole == is_whole]
-        if any(ties_of(one.wall) for _name, one in several):
+        if any(given_ties(one.wall) for _name, one in several):
             table, forces = _bars(document, several, is_whole=is_whole)
             blocks.append(table)
             anchored += forces
@@ -69,7 +69,7 @@ def _bars(
         (name, count, tie, item)
         for name, one in several
         for count, (tie, item) in enumerate(
-            zip(ties_of(one.wall), [x for x in one.check.items if x.item.startswith("tie")], strict=False), 1
+            zip(given_ties(one.wall), [x for x in one.check.items if x.item.startswith("tie")], strict=False), 1
         )
     ]
     anchored = [
@@ -78,7 +78,7 @@ def _bars(
             None,
         )
         for _name, one in several
-        for count in range(1, len(ties_of(one.wall)) + 1)
+        for count in range(1, len(given_ties(one.wall)) + 1)
     ]
     heads = (
         (_("area [cm²]"), _("force that holds [kN]"), _("strength of the anchor [kN]")) if is_whole

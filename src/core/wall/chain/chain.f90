@@ -182,7 +182,7 @@ contains
             change = maxval(abs(step))
          end associate
          large = max(1.0_wp, maxval(abs(motion%y)))
-         ! The last step, which changes no derivative; where an equation is ill-conditioned steps end above it, and no longer shrink.
+         ! The last step changes no derivative. Where equations are ill-conditioned steps end above rounding, and no longer shrink.
          if (before <= small_step*large .and. (change <= smallest_step*large .or. change >= 0.5_wp*before)) exit
          before = change
       end do
