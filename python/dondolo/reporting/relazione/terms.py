@@ -317,7 +317,7 @@ WARNINGS = {
     "diaphragm_not_in_demand": "il solaio deformabile in sommità muove la parete nelle analisi, ma non è nello spettro"
     " della norma: la domanda della verifica cinematica può essere troppo piccola",
     "anchor_before_bar": "gerarchia delle resistenze non rispettata: l'ancoraggio di {item} cede a {anchor_force_per_m}"
-    " kN/m, prima dello snervamento della barra a {bar_force_per_m} kN/m, e di colpo; verifica lineare SLV con q > 1"
+    " kN{per}, prima dello snervamento della barra a {bar_force_per_m} kN{per}, e di colpo; verifica lineare SLV con q > 1"
     " non applicabile",
     "plate_too_thin": "capochiave di {item} troppo sottile: {plate_thickness} m, ne servono {plate_needed}; la verifica"
     " ne suppone uniforme la pressione sulla muratura",
@@ -369,6 +369,7 @@ def warning(language: Language, found: DondoloWarning) -> str:
     if found.code not in WARNINGS:
         return f"avvertenza {found.code} (v. file dei risultati)"
     values = defaultdict(lambda: "\N{EN DASH}", found.subject)
+    values["per"] = "" if found.subject.get("of") == "whole" else "/m"
     if "item" in found.subject:
         values["item"] = item_in_words(found.subject["item"])
         values["the_item"] = with_article(values["item"])

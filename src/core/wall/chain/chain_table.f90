@@ -50,7 +50,7 @@ contains
          is_smooth = .true.
          do i = 0, n
             if (allocated(before) .and. modulo(i, 2) == 0) cycle
-            call sample_at(columns(i, :), is_smooth)
+            call sample_at(columns(i, :), motion, is_smooth)
             if (.not. is_smooth) return
          end do
          is_smooth = are_resolved(columns(:, 2:))
@@ -65,9 +65,11 @@ contains
    contains
 
       !> The terms at a rotation
-      pure subroutine sample_at(row, is_there)
+      pure subroutine sample_at(row, motion, is_there)
          !> In: the rotation; out: with J, L, M, S, d and sum W x'
          real(wp), intent(inout) :: row(:)
+         !> In: at a rotation nearby
+         type(motion_type), intent(inout) :: motion
          !> False: the chain ends before
          logical, intent(out) :: is_there
 
