@@ -182,7 +182,6 @@ def damaged(executable, root, tmp_path_factory):
         ("parapet", "histories", r"^parapet,.*\n", "", r"\d+ rows: are not the \d+ histories of the run"),
         ("population", "stripes", r"^parapet brick low,.*\n", "", r"\d+ rows: must be 24 x 1 x 12, one for each wall"),
         ("population", "walls", ",one_sided,", ",arch,", r"line \d+: mechanism = 'arch': must be one of 'one_sided'"),
-        ("population", "walls", ",one_sided,", ",horizontal,", "such a wall has .* dd.horizontal_bending of Python"),
         (
             "population",
             "walls",
