@@ -10,6 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._storage.tables import Table, csv_lines, shortest, write_lines
+from dondolo.walls.chain_actions import INERTIAS
 from dondolo.walls.chain_parts import MASS, SECTOR
 
 if TYPE_CHECKING:
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
 
 # Depths and heights below this are roundings of zero / height
 _ZERO = 1e-12
-# Which parts of a load are lifted and pushed, by its word
-_INERTIAS = {(0.0, 0.0): "none", (1.0, 0.0): "vertical", (1.0, 1.0): "both"}
+# Words of the parts of a load that are lifted and pushed
+_WORDS = {parts: word for word, parts in INERTIAS.items()}
 
 
 def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
@@ -97,9 +98,9 @@ def _actions(rows: FloatArray) -> Table:
     words = []
     for row in rows:
         moved = (float(row[4]), float(row[5]))
-        if moved not in _INERTIAS:
+        if moved not in _WORDS:
             raise argument_error("not_a_word", "inertia", f": a file has no word for parts {moved} of a load that move")
-        words.append(_INERTIAS[moved] if row[3] > 0.0 else "none")
+        words.append(_WORDS[moved] if row[3] > 0.0 else "none")
     return {
         "body": _numbers(rows[:, 0]),
         "depth [m]": rows[:, 1] + 0.0,

@@ -14,19 +14,8 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, argument_error, as_path, wrong_type
 from dondolo._fortran.walls import chain_facts, chain_motion
 from dondolo._storage.saved import part_of_results
-from dondolo.walls.chain_parts import (
-    CORNER,
-    SECTOR,
-    Body,
-    Guide,
-    Pin,
-    Point,
-    PointLoad,
-    PointMass,
-    PointThrust,
-    PointTie,
-    flat_bodies,
-)
+from dondolo.walls.chain_actions import PointLoad, PointMass, PointThrust, PointTie
+from dondolo.walls.chain_parts import CORNER, SECTOR, Body, Guide, Pin, Point, flat_bodies
 from dondolo.walls.chain_tables import write_tables
 from dondolo.walls.wall import DEFAULT, Wall, upload
 

@@ -13,7 +13,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.tables import TableColumns, tie_columns
 from dondolo._fortran.walls import open_anchors, tie_states, tie_tallies
 from dondolo._storage.saved import part_of_results
-from dondolo.walls.chain_parts import PointTie
+from dondolo.walls.chain_actions import PointTie
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import Corner
 from dondolo.walls.parts import Tie, parts_of
