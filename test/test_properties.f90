@@ -487,8 +487,8 @@ contains
       type(wall_input_type), intent(inout) :: input
       character(len=*), intent(in) :: what
 
-      character(len=*), parameter :: names(5) = [character(len=13) :: 'load_total', 'load_depth', 'load_height', 'thrust_total', &
-         & 'thrust_height']
+      character(len=*), parameter :: names(7) = [character(len=13) :: 'load_total', 'load_depth', 'load_height', 'thrust_total', &
+         & 'thrust_height', 'tie_height', 'tie_length']
       integer :: i
 
       if (.not. input%has('wing_angle')) call input%set('wing_angle', 20.0_wp)
@@ -502,6 +502,7 @@ contains
          if (names(i)(:index(names(i), '_')) /= what(:index(what, '_')) .or. input%has(trim(names(i)))) cycle
          call input%set(trim(names(i)), [0.4_wp, 0.4_wp])
       end do
+      if (index(what, 'tie_') == 1 .and. what /= 'tie_bar') call input%set('tie_bar', [0.02_wp, 0.02_wp])
       if (index(what, 'load_') /= 1) return
       if (what == 'load_lifted') call input%set('load_pushed', [0.4_wp, 0.4_wp])
       if (what == 'load_pushed') call input%set('load_lifted', [0.4_wp, 0.4_wp])

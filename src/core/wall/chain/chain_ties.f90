@@ -44,11 +44,13 @@ contains
       type(problems_type), intent(inout) :: problems
 
       type(chain_tie_type) :: tie
+      character(len=:), allocatable :: name
       integer :: i
 
       allocate (chain%ties(0))
       do i = 1, size(list)/tie_numbers
-         associate (row => list(tie_numbers*(i - 1) + 1:tie_numbers*i), name => 'ties: tie '//to_text(i))
+         name = 'ties: tie '//to_text(i)
+         associate (row => list(tie_numbers*(i - 1) + 1:tie_numbers*i))
             tie = chain_tie_type(nint(row(1)), nint(row(2)), [-row(3), row(4)], [-row(6), row(7)])
             if (tie%body < 1 .or. max(tie%body, tie%other) > size(chain%bodies) .or. tie%other < 0 .or. tie%body == tie%other) then
                call problems%note(name//' is between '//to_text(tie%body)//' and '//to_text(tie%other)//', must be between one '// &
@@ -159,13 +161,15 @@ contains
       !> A tie that it does not stretch
       type(error_type), allocatable, intent(out) :: error
 
-      type(restraint_type) :: ties(size(chain%ties))
+      type(restraint_type), allocatable :: ties(:)
       type(travel_series_type) :: along
       type(motion_type) :: motion
-      real(wp) :: lever(size(rotation), size(chain%ties)), misfit
+      real(wp), allocatable :: lever(:, :)
+      real(wp) :: misfit
       logical :: is_there
       integer :: i, k
 
+      allocate (ties(size(chain%ties)), lever(size(rotation), size(chain%ties)))
       call set_at_rest(chain, motion)
       do i = 1, size(rotation)
          call chain%move(rotation(i), motion, is_there)
