@@ -280,7 +280,8 @@ contains
                & ' N'
          end do
          if (.not. forces(1) > 0.0_wp) text = text//'; bar '//rounded(sheet%value('tie', '', 'bar_force_per_m', item))// &
-            & ' N'//per//', anchor '//trim(merge('not checked', 'given      ', sheet%value('tie', '', 'anchor_checked', item) <= 0.0_wp))
+            & ' N'//per//', anchor '//trim(merge('not checked', 'given      ', &
+            & sheet%value('tie', '', 'anchor_checked', item) <= 0.0_wp))
          write (output_unit, '(a)') text
          i = i + 1
          item = 'tie '//to_text(i)

@@ -6,6 +6,7 @@ import subprocess
 import matplotlib
 import numpy as np
 import pytest
+from numpy.polynomial import Chebyshev
 from scipy.integrate import solve_ivp
 from test_rigid_chains import CHAINS, G, HALVES, SITE, body, portal_joint, rectangle
 
@@ -26,7 +27,7 @@ def facade(*ties):
     """A facade, and the same as a chain."""
     wall = dd.OneSidedWall(4.0, 0.4, density=1800.0, hinge_depth=0.02, ties=[dd.Tie(**one) for one in ties])
     chain = dd.Chain(
-        height=4.0, sides=1, restitution_value=-wall.restitution_coefficient,
+        height=4.0, sides=1, restitution_value=wall.restitution_coefficient,
         bodies=[body(rectangle(-0.4, 0.0, 0.0, 4.0, 1800.0))], joints=[dd.Pin(1, 0, (-0.02, 0.0))],
         ties=[dd.PointTie(1, (-one["depth"], one["height"]), *(one[name] for name in ("area", "length")),
                           **{name: one[name] for name in ("strength", "strain", "preload")}) for one in ties],
@@ -132,11 +133,12 @@ class Linkage:
         h = self.hinges
         spans = [h[1] - h[0], h[2] - h[1], h[3] - h[2]]
         a, b = 0.0, 0.0
-        for _ in range(40):
+        change = np.ones(2)
+        while np.abs(change).max() > 1e-13:
             r = [self.turned(span, angle) for span, angle in zip(spans, (q, a, b), strict=True)]
             gap = h[0] + sum(r) - h[3]
-            matrix = np.column_stack([self.across(r[1]), self.across(r[2])])
-            a, b = np.array([a, b]) - np.linalg.solve(matrix, gap)
+            change = np.linalg.solve(np.column_stack([self.across(r[1]), self.across(r[2])]), gap)
+            a, b = np.array([a, b]) - change
         r = [self.turned(span, angle) for span, angle in zip(spans, (q, a, b), strict=True)]
         matrix = np.column_stack([self.across(r[1]), self.across(r[2])])
         rates = np.r_[1.0, np.linalg.solve(matrix, -self.across(r[0]))]
@@ -157,17 +159,25 @@ class Linkage:
         moment = G * sum(m * v[1] for m, (_, v) in zip(self.masses, points, strict=False))
         return j, lever, moment, points[-1][0][0] - 1.5, points[-1][1][0]
 
-    def acceleration(self, q, v, ground, force):
-        step = 1e-4
-        near = [self.terms(q + k * step)[0] for k in (-2, -1, 1, 2)]
-        slope = (near[0] - 8.0 * near[1] + 8.0 * near[2] - near[3]) / (12.0 * step)
-        j, lever, moment, _, x = self.terms(q)
-        return (-lever * ground - moment - force * x - 0.5 * slope * v**2) / j
+    def curves(self, last):
+        """The terms as polynomials of a high degree, and the slope of J."""
+        nodes = 0.5 * last * (1.0 - np.cos(np.pi * (np.arange(64) + 0.5) / 64))
+        values = np.array([self.terms(q) for q in nodes])
+        found = [Chebyshev.fit(nodes, column, 56, domain=[0.0, last]) for column in values.T]
+        return [*found, found[0].deriv()]
 
 
 def integrated(ground, dt, restitution):
     """Largest rotation of the portal with its rod, and its plastic elongation."""
-    link = Linkage()
+    curves = Linkage().curves(0.13)
+
+    def travel(q):
+        return float(curves[3](q))
+
+    def acceleration(q, v, ground, pull):
+        j, lever, moment, _, x, slope = (curve(q) for curve in curves)
+        return float((-lever * ground - moment - pull * x - 0.5 * slope * v**2) / j)
+
     stiffness, strength = 2.06e11 * ROD.area / ROD.length, ROD.strength * ROD.area
     q, v, plastic, largest, mode = 0.0, 0.0, 0.0, 0.0, "elastic"
 
@@ -185,15 +195,15 @@ def integrated(ground, dt, restitution):
             def ground_at(time, k=k):
                 return ground[k] + (ground[k + 1] - ground[k]) * time / dt
 
-            if q <= 0.0 and v <= 0.0 and link.acceleration(0.0, 0.0, ground_at(t), force(0.0)) <= 0.0:
+            if q <= 0.0 and v <= 0.0 and acceleration(0.0, 0.0, ground_at(t), force(0.0)) <= 0.0:
                 # At rest until the ground pushes it
-                if link.acceleration(0.0, 0.0, ground_at(end), force(0.0)) <= 0.0:
+                if acceleration(0.0, 0.0, ground_at(end), force(0.0)) <= 0.0:
                     q, v, t = 0.0, 0.0, end
                     continue
                 low, high = t, end
                 for _halving in range(60):
                     middle = 0.5 * (low + high)
-                    pushed = link.acceleration(0.0, 0.0, ground_at(middle), force(0.0)) > 0.0
+                    pushed = acceleration(0.0, 0.0, ground_at(middle), force(0.0)) > 0.0
                     low, high = (low, middle) if pushed else (middle, high)
                 q, v, t = 0.0, 0.0, high
 
@@ -201,23 +211,24 @@ def integrated(ground, dt, restitution):
                 return y[0]
 
             def changes(_t, y):
-                d = link.terms(y[0])[3]
+                d = travel(y[0])
                 if mode == "flows":
                     return y[1]
                 return d - (plastic if mode == "slack" else plastic + strength / stiffness)
 
             def slackens(_t, y):
-                return link.terms(y[0])[3] - plastic + (1.0 if mode != "elastic" or plastic == 0.0 else 0.0)
+                return travel(y[0]) - plastic + (1.0 if mode != "elastic" or plastic == 0.0 else 0.0)
 
             hits.terminal = changes.terminal = slackens.terminal = True
             hits.direction = slackens.direction = -1.0
             changes.direction = -1.0 if mode == "flows" else 1.0
             step = solve_ivp(
-                lambda time, y: [y[1], link.acceleration(y[0], y[1], ground_at(time), force(link.terms(y[0])[3]))],
+                lambda time, y: [y[1], acceleration(y[0], y[1], ground_at(time), force(travel(y[0])))],
                 (t, end), [q, v], method="DOP853", rtol=1e-9, atol=1e-12, events=[hits, changes, slackens],
             )  # fmt: skip
             t, (q, v) = step.t[-1], step.y[:, -1]
             largest = max(largest, float(step.y[0].max()))
+            assert largest < 0.12
             if step.t_events[0].size:
                 q, v = 0.0, -restitution * v
                 if v < 1e-6:
@@ -230,7 +241,7 @@ def integrated(ground, dt, restitution):
                 elif mode == "slack":
                     mode = "elastic"
                 else:
-                    mode, plastic = "elastic", link.terms(q)[3] - strength / stiffness
+                    mode, plastic = "elastic", travel(q) - strength / stiffness
             elif step.t_events[2].size:
                 mode = "slack"
     return largest, plastic
@@ -240,15 +251,15 @@ def integrated(ground, dt, restitution):
 def test_an_independent_integration(engine):
     """The portal with a rod, from the geometry of its four hinges alone."""
     time = np.arange(0.0, 1.6001, 0.01)
-    ground = np.r_[-6.0 * np.sin(2.0 * np.pi * time / 0.8), np.zeros(60)]
+    ground = np.r_[-3.7 * np.sin(2.0 * np.pi * time / 0.8), np.zeros(60)]
     largest, plastic = integrated(ground, 0.01, 0.6)
     wall = portal(ties=[ROD])
     record = dd.Record(np.r_[ground, np.zeros(300)], 0.01, name="sine")
-    response = dd.simulate(wall, record, 6.0 / G, solver=dd.Solver(engine=engine, rtol=1e-11))
-    assert 0.2 < largest / wall.capacity_angle < 0.9
+    response = dd.simulate(wall, record, solver=dd.Solver(engine=engine, rtol=1e-11))
+    assert 0.15 < largest / wall.capacity_angle < 0.9
     assert plastic > 1e-3
-    assert response.edp * wall.capacity_angle == pytest.approx(largest, rel=1e-7)
-    assert response.ties.plastic_elongation[0] == pytest.approx(plastic, rel=1e-6)
+    assert response.edp * wall.capacity_angle == pytest.approx(largest, rel=1e-9)
+    assert response.ties.plastic_elongation[0] == pytest.approx(plastic, rel=1e-8)
 
 
 def test_check():
@@ -290,15 +301,15 @@ def test_between_two_bodies():
         assert force == pytest.approx(stiffness * travel * lever, rel=1e-4, abs=1e-3)
 
 
-def test_files(executable, tmp_path):
+def test_files(executable, root, tmp_path):
     """Tables of ties give the same wall in a case, whose results, report and drawing have them."""
     wall = portal(ties=[ROD, dd.PointTie(2, (0.5, 5.4), 5e-5, 4.0, anchor_force=5e3)], name="tied")
     wall.write_tables(tmp_path / "tied")
     files = ", ".join(f"{name} = 'tied_{name}.csv'" for name in ("bodies", "joints", "ties"))
     (tmp_path / "case.nml").write_text(
         f"&wall\n name = 'tied', mechanism = 'chain', height = 5.5, sides = 1, restitution_value = 0.6\n {files} /\n"
-        "&records synthetic_magnitude = 6.5, synthetic_distance = 10.0, synthetic_count = 8 /\n"
-        "&stripes im_levels = 0.4, 0.8 /\n&check ag = 0.104, 0.261, 0.334, f0 = 2.332, 2.364, 2.4,"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n"
+        "&stripes levels = 0.4, 0.8 /\n&check ag = 0.104, 0.261, 0.334, f0 = 2.332, 2.364, 2.4,"
         " tc_star = 0.281, 0.347, 0.364, soil = 'B' /\n"
     )
     case = dd.read_case(tmp_path / "case.nml")
@@ -351,5 +362,5 @@ def test_more_refusals():
         dd.Chain(**STRIP | {"sides": 2}, ties=[chord])
     with pytest.raises(dd.errors.InputError, match="tie_table: has 3 values, must have rows of 14"):
         dd.Chain(**STRIP, tie_table=[1.0, 0.0, 0.0])
-    with pytest.raises(TypeError, match="dondolo.PointTie"):
+    with pytest.raises(dd.errors.InputError, match="ties: must be dondolo.PointTie, not Tie"):
         dd.Chain(**STRIP, ties=[dd.Tie(2.0, area=1e-4, length=5.0)])

@@ -221,7 +221,7 @@ def as_chain(*ties):
     )
     actions = [dd.PointLoad(1, (-0.45, 3.2), 6e3, inertia="both"), dd.PointThrust(1, (-0.4, 3.2), 2e3)]
     return dd.Chain(
-        height=3.2, sides=1, restitution_value=-wall.restitution_coefficient, bodies=[body],
+        height=3.2, sides=1, restitution_value=wall.restitution_coefficient, bodies=[body],
         joints=[dd.Pin(1, 0, (-0.03, 0.0))], actions=actions, ties=ties,
     )  # fmt: skip
 
