@@ -263,14 +263,14 @@ def test_check_of_ties(tmp_path):
     (item,) = [one for one in check.items if one.item == "tie 1"]
     assert item.force == pytest.approx(force / np.sqrt(2.0), rel=1e-13)
     assert item.lever == pytest.approx(3.0, rel=1e-13)
-    first = sum(one.force_lever for one in bare.items if one.item in ("masonry", "load 1"))
+    first = sum(one.force_lever for one in bare.items if one.item in ("corner 1", "wing 1", "wing 2", "load 1"))
     grown = check.value("mechanism", "", "alpha_0") - bare.value("mechanism", "", "alpha_0")
     assert grown == pytest.approx(item.force * 3.0 / first, rel=1e-12)
     assert check.value("tie", "", "bar_force_per_m", item="tie 1") == pytest.approx(force, rel=1e-13)
     assert not any(row.unit.endswith("/m") for row in check.rows)
     brittle = dd.check_ntc(corner(ties=[replace(BAR, anchor_total=30e3)]), SITE)
     notes = [note for note in brittle.notes if note.code == "anchor_before_bar"]
-    assert [str(note).count(" N,") + str(note).count(" N/m") for note in notes] == [1]
+    assert ["N/m" in str(note) for note in notes] == [False]
     with pytest.raises(dd.errors.InputError, match="must be positive for each tie of a corner"):
         corner(ties=[replace(BAR, bar=0.0)])
 
