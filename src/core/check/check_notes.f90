@@ -249,9 +249,11 @@ contains
       type(warning_type) :: note
       character(len=len(sheet%rows%item)) :: item
       character(len=:), allocatable :: per
+      logical :: is_whole
       integer :: i
 
-      per = trim(merge('  ', '/m', sheet%is_whole))
+      is_whole = any(sheet%rows%quantity%name == 'tie_force_per_m' .and. sheet%rows%quantity%unit == 'N')
+      per = trim(merge('  ', '/m', is_whole))
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))
             item = row%item
@@ -291,7 +293,7 @@ contains
 
          note = warning_type(code)
          call note%about('item', trim(item))
-         if (sheet%is_whole .and. code == anchor_before_bar) call note%about('of', 'whole')
+         if (is_whole .and. code == anchor_before_bar) call note%about('of', 'whole')
          do k = 1, size(names)
             call note%with(trim(names(k)), sheet%value('tie', '', trim(names(k)), item))
          end do
