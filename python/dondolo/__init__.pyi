@@ -48,12 +48,12 @@ from dondolo.reporting.relazione.writing import calculation_report as calculatio
 from dondolo.reporting.workbook import write_workbook as write_workbook
 from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
-from dondolo.walls.chain_builders import arch as arch
-from dondolo.walls.chain_builders import horizontal_bending as horizontal_bending
 from dondolo.walls.chain_actions import PointLoad as PointLoad
 from dondolo.walls.chain_actions import PointMass as PointMass
 from dondolo.walls.chain_actions import PointThrust as PointThrust
 from dondolo.walls.chain_actions import PointTie as PointTie
+from dondolo.walls.chain_builders import arch as arch
+from dondolo.walls.chain_builders import horizontal_bending as horizontal_bending
 from dondolo.walls.chain_parts import Body as Body
 from dondolo.walls.chain_parts import GivenMass as GivenMass
 from dondolo.walls.chain_parts import Guide as Guide

@@ -216,9 +216,7 @@ BAR = dd.Tie(3.0, bar=0.016, length=6.0, strength=2e8, preload=1e7, strain=0.01,
 def as_chain(*ties):
     """The corner as one rigid body in the plane of its bisector, with a tie there."""
     wall = corner()
-    body = dd.Body(
-        [dd.GivenMass(7136.463418676679, (-0.8353932042949779, 2.019738318673118), 5903.577167197559)]
-    )
+    body = dd.Body([dd.GivenMass(7136.463418676679, (-0.8353932042949779, 2.019738318673118), 5903.577167197559)])
     actions = [dd.PointLoad(1, (-0.45, 3.2), 6e3, inertia="both"), dd.PointThrust(1, (-0.4, 3.2), 2e3)]
     return dd.Chain(
         height=3.2, sides=1, restitution_value=wall.restitution_coefficient, bodies=[body],
@@ -228,13 +226,13 @@ def as_chain(*ties):
 
 @pytest.mark.parametrize("engine", ["rk45", "lanes"])
 def test_ties(engine):
-    """Each along one wall: along the bisector it is stretched by 1/sqrt 2 of the way, and pulls with 1/sqrt 2 of its force."""
+    """Each along one wall: stretched by 1/sqrt 2 of the way on the bisector, where it has 1/sqrt 2 of its force."""
     wall = corner(ties=[BAR, replace(BAR, height=2.0, depth=0.2, preload=0.0)])
     area, root = 0.25 * np.pi * 0.016**2, np.sqrt(2.0)
     share = {"strength": 2e8, "strain": 0.01, "anchor_force": 60e3 / root}
     chain = as_chain(
-        dd.PointTie(1, (0.0, 3.0), area / root, 6.0 * root, preload=1e7, **share),
-        dd.PointTie(1, (-0.2, 2.0), area / root, 6.0 * root, **share),
+        dd.PointTie(1, (0.0, 3.0), area=area / root, length=6.0 * root, preload=1e7, **share),
+        dd.PointTie(1, (-0.2, 2.0), area=area / root, length=6.0 * root, **share),
     )
     q = np.linspace(0.0, 0.28, 8)
     for one, other in zip(wall.terms(q), chain.terms(q), strict=True):

@@ -74,8 +74,8 @@ MEANINGS = {
     "tie_preload": "tensione di ogni catena a riposo, minore dello snervamento, 0 se non assegnata",
     "tie_strain": "deformazione per cui ogni catena o il suo ancoraggio si rompe, 0,02 se non assegnata",
     "tie_anchor_force": "forza al metro di parete per cui ogni ancoraggio cede di colpo; nessuna se non assegnata",
-    "tie_anchor_total": "forza per cui l'ancoraggio di ogni catena di un cantonale cede di colpo, in tutto e non al metro;"
-    " nessuna se non assegnata",
+    "tie_anchor_total": "forza per cui l'ancoraggio di ogni catena di un cantonale cede di colpo, in tutto e non al"
+    " metro; nessuna se non assegnata",
     "tie_plate_width": "larghezza del capochiave di ogni catena, da cui segue la forza dell'ancoraggio, al posto di"
     " tie_anchor_force",
     "tie_plate_height": "altezza del capochiave",

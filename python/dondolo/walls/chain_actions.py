@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from dondolo._base.arguments import argument_error, as_number, one_of
 from dondolo._fortran.walls import WALL_ABSENT
@@ -155,17 +155,18 @@ class PointTie:
     Examples
     --------
     >>> import dondolo as dd
-    >>> rod = dd.PointTie(3, (2.5, 3.5), 3.1e-4, 5.0)  # from the head of a pier to the ground
-    >>> chord = dd.PointTie(3, (1.5, 3.5), 3.1e-4, 3.0, other=1, other_at=(-1.5, 3.5))  # between two piers
+    >>> rod = dd.PointTie(3, (2.5, 3.5), area=3.1e-4, length=5.0)  # from the head of a pier to the ground
+    >>> between_two = {"other": 1, "other_at": (-1.5, 3.5)}
+    >>> chord = dd.PointTie(3, (1.5, 3.5), area=3.1e-4, length=3.0, **between_two)
     >>> rod.angle, chord.other
     (0.0, 1)
     """
 
     body: int
     at: Point
+    _: KW_ONLY
     area: float
     length: float
-    _: KW_ONLY
     angle: float = 0.0
     other: int = 0
     other_at: Point | None = None
@@ -199,7 +200,7 @@ class PointTie:
         bar = dict(zip(("modulus", "strength", "preload", "strain"), row[9:13], strict=True))
         anchor = row[13] if row[13] > 0.0 else None
         at = (-row[2], row[3])
-        return cls(int(row[0]), at, row[7], row[8], angle=row[4], anchor_force=anchor, **bar, **far)
+        return cls(int(row[0]), at, area=row[7], length=row[8], angle=row[4], anchor_force=anchor, **bar, **far)
 
     @property
     def height(self) -> float:

@@ -63,7 +63,7 @@ class Chain(Wall):
     actions : str, path or sequence of PointLoad, PointMass or PointThrust, optional
         CSV file of loads, pushed masses and thrusts at points of the bodies, or a list of them.
     ties : str, path or sequence of PointTie, optional
-        CSV file of ties, or the ties. They hold the motion outwards.
+        CSV file of ties, which hold its bodies outwards, or the ties.
     driver : float, optional
         Number of the body whose turn is the rotation q; 1 if left out.
     gravity_share : float, optional
@@ -84,8 +84,8 @@ class Chain(Wall):
     ------
     InputError
         Joints that leave more or less than one degree of freedom, or depend on one another; bodies that overlap; a
-        hinge on the side on which its joint closes; a chain that does not stand at rest without its ties; a tie that the
-        motion does not stretch; two sides whose multipliers or capacities differ by more than 2 %.
+        hinge on the side on which its joint closes; a chain that does not stand at rest without its ties; a tie that
+        the motion does not stretch; two sides whose multipliers or capacities differ by more than 2 %.
 
     Notes
     -----

@@ -1,10 +1,9 @@
-!> How far the anchor of a tie goes along it in a mechanism of which no formula is known: the lever X = dD/dq, sampled, becomes a
-!> polynomial, and the travel D is its integral from rest, so that the work of a force over D is what its moment does.
+!> How far the anchor of a tie goes along it in a mechanism of which no formula is known: the lever X = dD/dq is a polynomial, and
+!> the travel D is its integral from rest, so that the work of a force over D is what its moment does.
 module dondolo_wall_travel_series
    use dondolo_base_bracket, only : bracket_type
    use dondolo_base_chebyshev, only : chebyshev_integral, chebyshev_value
    use dondolo_base_kinds, only : wp
-   use dondolo_wall_table_fit, only : fit_table
    implicit none
    private
 
@@ -29,18 +28,16 @@ module dondolo_wall_travel_series
 
 contains
 
-   !> Make it of a table of levers
-   subroutine new_travel_series(series, rotation, lever, misfit)
+   !> Make it of its lever
+   pure subroutine new_travel_series(series, last, lever)
       type(travel_series_type), intent(out) :: series
-      !> Rotations, from 0 on, each more than the one before [rad]
-      real(wp), intent(in) :: rotation(:)
-      !> X at each [m]
+      !> Last rotation [rad]
+      real(wp), intent(in) :: last
+      !> Chebyshev series of X over the rotations up to the last [m]
       real(wp), intent(in) :: lever(:)
-      !> Largest distance of a row from the polynomial / largest value
-      real(wp), intent(out) :: misfit
 
-      series%last = rotation(size(rotation))
-      call fit_table(rotation, lever, series%lever, misfit)
+      series%last = last
+      series%lever = lever
       series%travel = 0.5_wp*series%last*chebyshev_integral([series%lever, 0.0_wp])
    end subroutine new_travel_series
 

@@ -127,7 +127,9 @@ def ties_over(one: Subject, rotation: FloatArray) -> list[TieOfChain]:
         else:
             angle = np.radians(row[4])
             travel = (near - near[0]) @ [np.cos(angle), np.sin(angle)]
-        strain, preload, modulus, strength = (of_tie(bar, name) for name in ("strain", "preload", "modulus", "strength"))
+        strain, preload, modulus, strength = (
+            of_tie(bar, name) for name in ("strain", "preload", "modulus", "strength")
+        )
         is_brittle = item.force < (1.0 - _SAME) * strength * bar.section
         stretched = item.force / bar.section / modulus if is_brittle else strain
         curve = Chebyshev.fit(rotation, travel, _DEGREE, domain=[0.0, rotation[-1]])

@@ -317,8 +317,8 @@ WARNINGS = {
     "diaphragm_not_in_demand": "il solaio deformabile in sommità muove la parete nelle analisi, ma non è nello spettro"
     " della norma: la domanda della verifica cinematica può essere troppo piccola",
     "anchor_before_bar": "gerarchia delle resistenze non rispettata: l'ancoraggio di {item} cede a {anchor_force_per_m}"
-    " kN{per}, prima dello snervamento della barra a {bar_force_per_m} kN{per}, e di colpo; verifica lineare SLV con q > 1"
-    " non applicabile",
+    " kN{per}, prima dello snervamento della barra a {bar_force_per_m} kN{per}, e di colpo; verifica lineare SLV con"
+    " q > 1 non applicabile",
     "plate_too_thin": "capochiave di {item} troppo sottile: {plate_thickness} m, ne servono {plate_needed}; la verifica"
     " ne suppone uniforme la pressione sulla muratura",
     "anchor_factor_differs": "ancoraggio di {item} non verificato con il fattore di confidenza della verifica: la sua"

@@ -11,6 +11,7 @@ module dondolo_wall_chain_ties
    use dondolo_wall_chain, only : chain_tie_type, chain_type, motion_type, point_motion
    use dondolo_wall_chain_terms, only : set_at_rest
    use dondolo_wall_restraint, only : new_tie_along, restraint_type
+   use dondolo_wall_table_fit, only : fit_table
    use dondolo_wall_tabulated, only : tabulated_type
    use dondolo_wall_travel_series, only : new_travel_series, travel_series_type
    implicit none
@@ -164,7 +165,7 @@ contains
       type(restraint_type), allocatable :: ties(:)
       type(travel_series_type) :: along
       type(motion_type) :: motion
-      real(wp), allocatable :: lever(:, :)
+      real(wp), allocatable :: lever(:, :), series(:)
       real(wp) :: misfit
       logical :: is_there
       integer :: i, k
@@ -183,7 +184,8 @@ contains
                & 'stretches it, 0 for outwards', out_of_range, 'ties')
             return
          end if
-         call new_travel_series(along, rotation, lever(:, k), misfit)
+         call fit_table(rotation, lever(:, k), series, misfit)
+         call new_travel_series(along, rotation(size(rotation)), series)
          if (misfit > largest_misfit) then
             call raise_input(error, 'ties: the lever of tie '//to_text(k)//' changes too fast for a polynomial', out_of_range, &
                & 'ties')
