@@ -264,14 +264,15 @@ contains
       type(sheet_type), intent(in) :: sheet
 
       character(len=*), parameter :: parts(5) = [character(len=7) :: 'bar', 'bearing', 'shear', 'cone', 'band']
-      character(len=:), allocatable :: item, text
+      character(len=:), allocatable :: item, text, per
       real(wp) :: forces(size(parts))
       integer :: i, k
 
       i = 1
       item = 'tie 1'
+      per = trim(merge('  ', '/m', sheet%is_whole))
       do while (sheet%value('tie', '', 'tie_force_per_m', item) >= 0.0_wp)
-         text = item//': holds '//rounded(sheet%value('tie', '', 'tie_force_per_m', item))//' N/m'
+         text = item//': holds '//rounded(sheet%value('tie', '', 'tie_force_per_m', item))//' N'//per
          forces = [(sheet%value('tie', '', trim(parts(k))//'_force', item), k=1, size(parts))]
          if (forces(1) > 0.0_wp) text = text//', by its '//trim(parts(minloc(forces, dim=1, mask=forces > 0.0_wp)))//':'
          do k = 1, size(parts)
@@ -279,7 +280,8 @@ contains
                & ' N'
          end do
          if (.not. forces(1) > 0.0_wp) text = text//'; bar '//rounded(sheet%value('tie', '', 'bar_force_per_m', item))// &
-            & ' N/m, anchor '//trim(merge('not checked', 'given      ', sheet%value('tie', '', 'anchor_checked', item) <= 0.0_wp))
+            & ' N'//per//', anchor '//trim(merge('not checked', 'given      ', &
+            & sheet%value('tie', '', 'anchor_checked', item) <= 0.0_wp))
          write (output_unit, '(a)') text
          i = i + 1
          item = 'tie '//to_text(i)

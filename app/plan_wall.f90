@@ -68,8 +68,8 @@ contains
          if (size(input%list('thrust_total')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust_total')))//' N'
          if (size(input%list('load')) > 0) text = '  loads '//rounded(sum(input%list('load')))//' N/m'
          if (size(input%list('thrust')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust')))//' N/m'
-         if (size(input%list('tie_height')) > 0) text = trim(text)//'  ties '//rounded(sum( &
-            & wall%mechanism%restraints(:wall%mechanism%ties)%strength))//' N/m'
+         if (wall%mechanism%ties > 0) text = trim(text)//'  ties '//rounded(sum( &
+            & wall%mechanism%restraints(:wall%mechanism%ties)%strength))//' N'//trim(merge('  ', '/m', wall%model%is_whole))
          if (input%number('overburden') > 0.0_wp) then
             half = 0.5_wp*input%number('thickness')
             text = '  load '//rounded(input%number('overburden'))//' N/m'
@@ -141,9 +141,11 @@ contains
    subroutine print_ties(wall)
       type(wall_type), intent(in) :: wall
 
+      character(len=:), allocatable :: per, place
       integer :: i, number
 
       number = 0
+      per = trim(merge('  ', '/m', wall%model%is_whole))
       do i = 1, size(wall%mechanism%restraints)
          associate (tie => wall%mechanism%restraints(i))
             if (tie%is_friction) then
@@ -152,10 +154,11 @@ contains
                cycle
             end if
             number = number + 1
-            call print_line('tie', to_text(number)//', '//rounded(tie%edge + tie%f)//' m above the hinge: stiffness '// &
-               & rounded(tie%stiffness)//' N/m per m, at rest '//rounded(tie%preload)// &
-               & ' N/m, yields at '//rounded(tie%strength)//' N/m and '//trim(rotation(tie%yield))//', breaks at '// &
-               & trim(rotation(tie%fracture)))
+            place = ', '//rounded(tie%edge + tie%f)//' m above the hinge'
+            if (tie%along%exists()) place = ', lever '//rounded(tie%lever_at(0.0_wp))//' m'
+            call print_line('tie', to_text(number)//place//': stiffness '//rounded(tie%stiffness)//' N'//per//' per m, at rest '// &
+               & rounded(tie%preload)//' N'//per//', yields at '//rounded(tie%strength)//' N'//per//' and '// &
+               & trim(rotation(tie%yield))//', breaks at '//trim(rotation(tie%fracture)))
          end associate
       end do
       call print_line('statics', 'first motion at '//rounded(wall%mechanism%trigger_acceleration()/wall%gravity)// &

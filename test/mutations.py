@@ -821,8 +821,8 @@ EDITS = [
     ),
     Edit(
         "the moment of a table is divided by its first lever",
-        'moment, lever = terms.at("M", rotation), terms.at("S", rotation)',
-        'moment, lever = terms.at("M", rotation), terms.at("S", 0.0)',
+        'lever = terms.at("S", rotation)',
+        'lever = terms.at("S", 0.0)',
         "test_tabulated_checks.py::test_the_calculation_report_gives_the_numbers_of_the_check",
     ),
     Edit(

@@ -442,7 +442,7 @@ contains
             ! What a wall that rocks to both sides carries stands in its middle: test_loaded_block
             if (what == 'mechanism' .or. (is_beyond_bare(i) .and. mechanism_names(m) == 'free_standing')) cycle
             ! Readers put what is in the file in its place
-            if (any(what == [character(len=7) :: 'table', 'bodies', 'joints', 'actions'])) cycle
+            if (any(what == [character(len=7) :: 'table', 'bodies', 'joints', 'actions', 'ties'])) cycle
             call make_value(table(i), text)
             if (what == 'restitution') text = '''default'''
             call write_group('wall', table(:0), table(i), text)
@@ -487,8 +487,8 @@ contains
       type(wall_input_type), intent(inout) :: input
       character(len=*), intent(in) :: what
 
-      character(len=*), parameter :: names(5) = [character(len=13) :: 'load_total', 'load_depth', 'load_height', 'thrust_total', &
-         & 'thrust_height']
+      character(len=*), parameter :: names(7) = [character(len=13) :: 'load_total', 'load_depth', 'load_height', 'thrust_total', &
+         & 'thrust_height', 'tie_height', 'tie_length']
       integer :: i
 
       if (.not. input%has('wing_angle')) call input%set('wing_angle', 20.0_wp)
@@ -502,6 +502,7 @@ contains
          if (names(i)(:index(names(i), '_')) /= what(:index(what, '_')) .or. input%has(trim(names(i)))) cycle
          call input%set(trim(names(i)), [0.4_wp, 0.4_wp])
       end do
+      if (index(what, 'tie_') == 1 .and. what /= 'tie_bar') call input%set('tie_bar', [0.02_wp, 0.02_wp])
       if (index(what, 'load_') /= 1) return
       if (what == 'load_lifted') call input%set('load_pushed', [0.4_wp, 0.4_wp])
       if (what == 'load_pushed') call input%set('load_lifted', [0.4_wp, 0.4_wp])
@@ -540,6 +541,8 @@ contains
       call input%set('joint_table', [2.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
       if (input%has('action_table')) call input%set('action_table', [1.0_wp, 0.2_wp, 3.0_wp, 4.0e3_wp, 1.0_wp, 1.0_wp, 0.0_wp, &
          & 0.0_wp, 0.0_wp, 0.0_wp])
+      if (input%has('tie_table')) call input%set('tie_table', [1.0_wp, 0.0_wp, 0.0_wp, 3.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 2.0e-4_wp, &
+         & 6.0_wp, 2.06e11_wp, 1.8e8_wp, 0.0_wp, 0.02_wp, 0.0_wp])
       if (input%has('driver')) call input%set('driver', 1.0_wp)
       if (.not. input%has('sides')) call input%set('sides', 2.0_wp)
       if (.not. input%has('restitution_value')) call input%set('restitution_value', 0.5_wp)

@@ -48,6 +48,10 @@ from dondolo.reporting.relazione.writing import calculation_report as calculatio
 from dondolo.reporting.workbook import write_workbook as write_workbook
 from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
+from dondolo.walls.chain_actions import PointLoad as PointLoad
+from dondolo.walls.chain_actions import PointMass as PointMass
+from dondolo.walls.chain_actions import PointThrust as PointThrust
+from dondolo.walls.chain_actions import PointTie as PointTie
 from dondolo.walls.chain_builders import arch as arch
 from dondolo.walls.chain_builders import horizontal_bending as horizontal_bending
 from dondolo.walls.chain_parts import Body as Body
@@ -55,9 +59,6 @@ from dondolo.walls.chain_parts import GivenMass as GivenMass
 from dondolo.walls.chain_parts import Guide as Guide
 from dondolo.walls.chain_parts import Part as Part
 from dondolo.walls.chain_parts import Pin as Pin
-from dondolo.walls.chain_parts import PointLoad as PointLoad
-from dondolo.walls.chain_parts import PointMass as PointMass
-from dondolo.walls.chain_parts import PointThrust as PointThrust
 from dondolo.walls.chain_parts import Sector as Sector
 from dondolo.walls.mechanisms import Chain as Chain
 from dondolo.walls.mechanisms import Corner as Corner

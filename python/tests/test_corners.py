@@ -204,8 +204,73 @@ def test_wide_wings_need_a_restitution():
 def test_loads_of_walls_are_per_metre():
     with pytest.raises(dd.errors.InputError, match="only for mechanism = 'corner'"):
         dd.OneSidedWall(3.0, 0.25, loads=[dd.Load(total=6e3, depth=0.1, height=3.0, inertia="both")])
-    with pytest.raises(TypeError):
-        dd.Corner(3.2, 0.5, wing_angle=20.0, hinge_depth=0.03, ties=[])
+    with pytest.raises(dd.errors.InputError, match="only for mechanism = 'one_sided'"):
+        corner(ties=[dd.Tie(3.0, area=5e-5, length=6.0)])
+    with pytest.raises(dd.errors.InputError, match="only for mechanism = 'corner'"):
+        dd.OneSidedWall(3.0, 0.25, ties=[dd.Tie(2.8, area=5e-5, length=6.0, anchor_total=1e3)])
+
+
+BAR = dd.Tie(3.0, bar=0.016, length=6.0, strength=2e8, preload=1e7, strain=0.01, anchor_total=60e3)
+
+
+def as_chain(*ties):
+    """The corner as one rigid body in the plane of its bisector, with a tie there."""
+    wall = corner()
+    body = dd.Body([dd.GivenMass(7136.463418676679, (-0.8353932042949779, 2.019738318673118), 5903.577167197559)])
+    actions = [dd.PointLoad(1, (-0.45, 3.2), 6e3, inertia="both"), dd.PointThrust(1, (-0.4, 3.2), 2e3)]
+    return dd.Chain(
+        height=3.2, sides=1, restitution_value=wall.restitution_coefficient, bodies=[body],
+        joints=[dd.Pin(1, 0, (-0.03, 0.0))], actions=actions, ties=ties,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", ["rk45", "lanes"])
+def test_ties(engine):
+    """Each along one wall: stretched by 1/sqrt 2 of the way on the bisector, where it has 1/sqrt 2 of its force."""
+    wall = corner(ties=[BAR, replace(BAR, height=2.0, depth=0.2, preload=0.0)])
+    area, root = 0.25 * np.pi * 0.016**2, np.sqrt(2.0)
+    share = {"strength": 2e8, "strain": 0.01, "anchor_force": 60e3 / root}
+    chain = as_chain(
+        dd.PointTie(1, (0.0, 3.0), area=area / root, length=6.0 * root, preload=1e7, **share),
+        dd.PointTie(1, (-0.2, 2.0), area=area / root, length=6.0 * root, **share),
+    )
+    q = np.linspace(0.0, 0.28, 8)
+    for one, other in zip(wall.terms(q), chain.terms(q), strict=True):
+        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12 * chain.terms(0.0).inertia)
+    # By hand: the elastic forces of both at a rotation
+    at = 0.002
+    way = 2.97 * 0.0 + 3.0 * np.sin(at) - 0.03 * (1.0 - np.cos(at))
+    bare = corner().terms(at).load_force
+    stiffness = 2.06e11 * area / 6.0
+    one = (1e7 * area + stiffness * way / root) / root * (3.0 * np.cos(at) - 0.03 * np.sin(at))
+    far = 2.0 * np.sin(at) + 0.17 * (1.0 - np.cos(at))
+    two = stiffness * far / root / root * (2.0 * np.cos(at) + 0.17 * np.sin(at))
+    assert bare - wall.terms(at).load_force == pytest.approx(one + two, rel=1e-12)
+    motions, solver = dd.synthetic_records(6.5, 10.0, "shallow", n_records=6), dd.Solver(engine=engine, rtol=1e-10)
+    found, expected = (
+        dd.multiple_stripe(each, motions, (0.6, 1.0, 1.6), solver=solver, progress=False) for each in (wall, chain)
+    )
+    np.testing.assert_allclose(found.edp, expected.edp, rtol=0.0, atol=1e-8)
+    assert found.broken_ties.tolist() == expected.broken_ties.tolist()
+
+
+def test_check_of_ties(tmp_path):
+    check = dd.check_ntc(corner(ties=[BAR]), SITE)
+    bare = dd.check_ntc(corner(), SITE)
+    force = 2e8 * 0.25 * np.pi * 0.016**2
+    (item,) = [one for one in check.items if one.item == "tie 1"]
+    assert item.force == pytest.approx(force / np.sqrt(2.0), rel=1e-13)
+    assert item.lever == pytest.approx(3.0, rel=1e-13)
+    first = sum(one.force_lever for one in bare.items if one.item in ("corner 1", "wing 1", "wing 2", "load 1"))
+    grown = check.value("mechanism", "", "alpha_0") - bare.value("mechanism", "", "alpha_0")
+    assert grown == pytest.approx(item.force * 3.0 / first, rel=1e-12)
+    assert check.value("tie", "", "bar_force_per_m", item="tie 1") == pytest.approx(force, rel=1e-13)
+    assert not any(row.unit.endswith("/m") for row in check.rows)
+    brittle = dd.check_ntc(corner(ties=[replace(BAR, anchor_total=30e3)]), SITE)
+    notes = [note for note in brittle.notes if note.code == "anchor_before_bar"]
+    assert ["N/m" in str(note) for note in notes] == [False]
+    with pytest.raises(dd.errors.InputError, match="must be positive for each tie of a corner"):
+        corner(ties=[replace(BAR, bar=0.0)])
 
 
 def test_case_and_tables(root, run, tmp_path):

@@ -55,6 +55,26 @@ def facade(**more):
     return dd.OneSidedWall(**given | more)
 
 
+@pytest.mark.parametrize("kind", ["load", "inertia", "thrust"])
+def test_what_acts_on_a_panel_is_on_its_elevation(kind):
+    """The end of a beam may lie a little outside; what is farther off has no place on the masonry."""
+
+    def gable_with(x, height):
+        place = {"x": x, "depth": 0.2, "height": height}
+        things = {
+            "load": {"loads": [dd.Load(1e3, inertia="both", **place)]},
+            "inertia": {"inertial_masses": [dd.InertialMass(100.0, **place)]},
+            "thrust": {"thrusts": [dd.Thrust(10.0, **place)]},
+        }
+        return gable(**{"loads": [], **things[kind]})
+
+    assert gable_with(0.9, 1.9).height == gable_with(0.9, 2.0).height
+    # Above the line, but beyond the ridge or beside the axis of the gable
+    for x, height, off in ((0.0, 2.7, "0.3"), (-0.5, 1.5, "0.5")):
+        with pytest.raises(dd.errors.InputError, match=f"is {off} m off the elevation, must be on it or within 0.1 m"):
+            gable_with(x, height)
+
+
 def test_terms():
     wall = gable()
     assert wall.height == pytest.approx(2.4 * math.cos(BETA), rel=1e-14)

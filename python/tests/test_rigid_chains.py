@@ -264,6 +264,20 @@ def test_files_are_lists(executable, root, tmp_path):
     dd.report(stored, tmp_path / "report.html", lang="it")
 
 
+@pytest.mark.parametrize(
+    ("word", "way"),
+    [("arch", "'chain', whose tables dd.arch of Python"), ("horizontal_bending", "dd.horizontal_bending of Python"),
+     ("panel", "'one_sided' with elevation_x"), ("strip", "'two_block'"), ("frame", "from tables of its bodies")],
+)  # fmt: skip
+def test_a_word_for_a_mechanism_names_the_way(word, way, executable, tmp_path):
+    case = tmp_path / "case.nml"
+    case.write_text(f"&wall mechanism = '{word}', height = 3.0 /\n&stripes levels = 0.1 /\n")
+    done = subprocess.run([executable, case], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert f"mechanism = '{word}': must be one of 'one_sided'" in done.stderr
+    assert way in done.stderr
+
+
 def test_saved(chains, tmp_path):
     wall = chains["strip"]
     response = dd.simulate(wall, dd.Record(np.full(50, -4.0), 0.01))

@@ -352,7 +352,7 @@ def test_refusals_of_every_field_have_codes(page):
     # All but three are those of a wall given by tables, which no button of the page makes.
     never = {"catalogue", "output", "histories", "table", "rotation", "inertia", "lever", "moment", "vertical_lever"}
     never |= {"travel", "weighted_lever", "weight", "displacement", "bodies", "joints", "actions", "driver"}
-    never |= {"body_table", "joint_table", "action_table", "gravity_share"}
+    never |= {"body_table", "joint_table", "action_table", "gravity_share", "ties", "tie_table"}
     assert asked - named <= never | {"sides", "top_share", "top_tilt"}
 
 

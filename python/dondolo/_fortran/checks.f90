@@ -279,13 +279,13 @@ contains
    end subroutine capacity_curve
 
    !> Notes on a sheet of n rows, whose texts are a line each: lines, JSON objects
-   subroutine check_notes(method, limit_state, quantity, item, values, n, sent)
-      character(len=*), intent(in) :: method, limit_state, quantity, item
+   subroutine check_notes(method, limit_state, quantity, item, unit, values, n, sent)
+      character(len=*), intent(in) :: method, limit_state, quantity, item, unit
       integer(c_int), intent(in) :: n
       real(c_double), intent(in) :: values(n)
       integer(c_int64_t), intent(out) :: sent(5)
       type(sheet_type) :: sheet
-      type(lines_type) :: methods, states, quantities, items
+      type(lines_type) :: methods, states, quantities, items, units
       type(warnings_type) :: notes
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -295,12 +295,14 @@ contains
       call split_lines(limit_state, states)
       call split_lines(quantity, quantities)
       call split_lines(item, items)
+      call split_lines(unit, units)
       allocate (sheet%rows(n))
       do i = 1, n
          associate (row => sheet%rows(i))
             row%method = methods%line(i)%text
             row%state = states%line(i)%text
             row%quantity%name = quantities%line(i)%text
+            row%quantity%unit = units%line(i)%text
             row%item = items%line(i)%text
             row%value = values(i)
          end associate

@@ -258,7 +258,7 @@ def check_columns(walls: Handle, site: SiteInput, im: str, curves: Sequence[Flat
 
 def check_notes(rows: Sequence[SheetRow]) -> tuple[DondoloWarning, ...]:
     """What a reader of a sheet should know."""
-    names = ("method", "limit_state", "quantity", "item")
+    names = ("method", "limit_state", "quantity", "item", "unit")
     texts = {name: text_lines(getattr(row, name) for row in rows) for name in names}
     values = np.array([row.value for row in rows], float)
     return tuple(unpack_warnings(receive(_core.checks.check_notes(values=values, **texts)).lines))

@@ -13,8 +13,7 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, level_unit
 from dondolo.reporting.numerals import number, percent
-from dondolo.walls.parts import parts_of
-from dondolo.walls.ties import number_of_ties
+from dondolo.walls.ties import number_of_ties, ties_of
 from dondolo.walls.wall import Wall
 
 # What sentences that are said elsewhere are marked by for the catalogues
@@ -44,7 +43,7 @@ def _tables(
     names = [
         say("{wall}, tie {number} at {height:g} m", wall=wall.name, number=number, height=tie.height)
         for wall in walls
-        for number, tie in enumerate(parts_of(wall, "ties"), 1)
+        for number, tie in enumerate(ties_of(wall), 1)
     ]
     tables = []
     stretched = _("Share of the histories that stretch each tie for good, {levels}.")

@@ -85,6 +85,7 @@ def warning(language: Language, found: DondoloWarning) -> str:
         return str(found)
     with language.in_force():
         values = defaultdict(lambda: "\N{EN DASH}", found.subject)
+        values["per"] = "" if found.subject.get("of") == "whole" else "/m"
         if "item" in found.subject:
             name = found.subject["item"]
             values |= {"item": item_in_words(name), "the_item": the_item_in_words(name)}

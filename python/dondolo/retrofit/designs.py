@@ -35,8 +35,8 @@ from dondolo.populations.typology_tables import write_typology
 from dondolo.records.codes import Site
 from dondolo.records.level_rows import lasting
 from dondolo.records.record import Record
-from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
+from dondolo.walls.ties import given_ties
 from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
@@ -369,4 +369,4 @@ def _against(curve: Fragility, first: Fragility, confidence: float) -> Compariso
 
 def _steel(wall: Wall) -> float:
     """Mass of the ties of a wall [kg/m]."""
-    return _DENSITY * float(sum(tie.section * tie.length for tie in parts_of(wall, "ties")))
+    return _DENSITY * float(sum(tie.section * tie.length for tie in given_ties(wall)))

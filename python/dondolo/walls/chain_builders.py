@@ -15,7 +15,8 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error, as_count, as_number, wrong_type
 from dondolo._fortran.library import constants
-from dondolo.walls.chain_parts import Body, Guide, Part, Pin, PointLoad, PointThrust, Sector
+from dondolo.walls.chain_actions import PointLoad, PointThrust
+from dondolo.walls.chain_parts import Body, Guide, Part, Pin, Sector
 from dondolo.walls.chains import Chain
 from dondolo.walls.wall import DEFAULT
 

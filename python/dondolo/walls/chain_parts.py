@@ -1,18 +1,15 @@
-"""What a chain is made of: bodies and their parts, joints, and what acts on them."""
+"""What a chain is made of: bodies and their parts, and joints."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, Literal
+from typing import Any
 
-from dondolo._base.arguments import argument_error, as_number, one_of, wrong_type
+from dondolo._base.arguments import argument_error, as_number, wrong_type
 
 # Kinds of rows of bodies
 CORNER, MASS, SECTOR = 0, 1, 2
-
-# Which parts of a load a chain lifts and pushes
-_INERTIAS = {"none": (0.0, 0.0), "vertical": (1.0, 0.0), "both": (1.0, 1.0)}
 
 #: A point (x, y) [m]: x outwards, so that depths behind the outer face are negative, y upwards
 Point = tuple[float, float]
@@ -46,7 +43,7 @@ class Part:
     def _rows(self) -> list[list[float]]:
         """The numbers of its rows behind body and part."""
         own = (as_number("width", self.width), as_number("density", self.density))
-        return [[CORNER, *own, -x, y, 0.0, 0.0, 0.0, 0.0] for x, y in (_point("corners", at) for at in self.corners)]
+        return [[CORNER, *own, *place_of("corners", at), 0.0, 0.0, 0.0, 0.0] for at in self.corners]
 
 
 @dataclass(frozen=True)
@@ -85,9 +82,9 @@ class Sector:
 
     def _rows(self) -> list[list[float]]:
         """The numbers of its row behind body and part."""
-        x, y = _point("centre", self.centre)
+        own = (as_number("width", self.width), as_number("density", self.density))
         numbers = [as_number(name, getattr(self, name)) for name in ("inner", "outer", "start", "end")]
-        return [[SECTOR, as_number("width", self.width), as_number("density", self.density), -x, y, *numbers]]
+        return [[SECTOR, *own, *place_of("centre", self.centre), *numbers]]
 
 
 @dataclass(frozen=True)
@@ -117,9 +114,8 @@ class GivenMass:
 
     def _rows(self) -> list[list[float]]:
         """The numbers of its row behind body and part."""
-        x, y = _point("at", self.at)
         mass, inertia = as_number("mass", self.mass), as_number("inertia", self.inertia)
-        return [[MASS, 0.0, 0.0, -x, y, mass, inertia, 0.0, 0.0]]
+        return [[MASS, 0.0, 0.0, *place_of("at", self.at), mass, inertia, 0.0, 0.0]]
 
 
 @dataclass(frozen=True)
@@ -176,8 +172,8 @@ class Pin:
 
     def _row(self) -> list[float]:
         """The numbers of its row."""
-        x, y = _point("at", self.at)
-        return [2.0, self.body, self.other, -x, y, 0.0, -x, y]
+        at = place_of("at", self.at)
+        return [2.0, self.body, self.other, *at, 0.0, *at]
 
 
 @dataclass(frozen=True)
@@ -212,116 +208,9 @@ class Guide:
 
     def _row(self) -> list[float]:
         """The numbers of its row."""
-        x, y = _point("at", self.at)
-        far = (x, y) if self.other_at is None else _point("other_at", self.other_at)
-        return [1.0, self.body, self.other, -x, y, as_number("angle", self.angle), -far[0], far[1]]
-
-
-@dataclass(frozen=True)
-class PointLoad:
-    """A vertical load on a body of a chain.
-
-    Parameters
-    ----------
-    body : int
-        Number of the body, from 1; 0: one that stands still.
-    at : tuple
-        Where it rests (x, y) [m].
-    force : float
-        Its weight [N].
-    inertia : {'none', 'vertical', 'both'}
-        Which mass of it the chain moves: docs/loads.md.
-    held : bool, optional
-        Whether something else holds it sideways, such as the floor of a strip: it then counts in the moment of a check
-        alone.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> beam = dd.PointLoad(1, (-0.15, 1.5), 4e3, inertia="both")
-    >>> beam.held
-    False
-    """
-
-    body: int
-    at: Point
-    force: float
-    _: KW_ONLY
-    inertia: Literal["none", "vertical", "both"]
-    held: bool = False
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        one_of("inertia", self.inertia, tuple(_INERTIAS))
-        own = _INERTIAS[self.inertia]
-        return [self.body, -x, y, as_number("force", self.force), *own, 0.0, 0.0, 0.0, float(self.held)]
-
-
-@dataclass(frozen=True)
-class PointMass:
-    """A mass that a body of a chain pushes and does not carry.
-
-    Parameters
-    ----------
-    body : int
-        Number of the body, from 1.
-    at : tuple
-        Where it is pushed (x, y) [m].
-    mass : float
-        The mass [kg].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> dd.PointMass(1, (-0.2, 3.0), 600.0)
-    PointMass(body=1, at=(-0.2, 3.0), mass=600.0)
-    """
-
-    body: int
-    at: Point
-    mass: float
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        return [self.body, -x, y, 0.0, 0.0, 0.0, as_number("mass", self.mass), 0.0, 0.0, 0.0]
-
-
-@dataclass(frozen=True)
-class PointThrust:
-    """A force on a body of a chain that keeps its direction.
-
-    Parameters
-    ----------
-    body : int
-        Number of the body, from 1.
-    at : tuple
-        Where it acts (x, y) [m].
-    force : float
-        The force [N].
-    angle : float, optional
-        Its direction, from +x towards +y, outwards if left out [deg].
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> arch = dd.PointThrust(1, (-0.2, 3.0), 1.5e3)
-    >>> arch.angle
-    0.0
-    """
-
-    body: int
-    at: Point
-    force: float
-    _: KW_ONLY
-    angle: float = 0.0
-
-    def _row(self) -> list[float]:
-        """The numbers of its row."""
-        x, y = _point("at", self.at)
-        force, angle = as_number("force", self.force), as_number("angle", self.angle)
-        return [self.body, -x, y, 0.0, 0.0, 0.0, 0.0, force, angle, 0.0]
+        at = place_of("at", self.at)
+        far = at if self.other_at is None else place_of("other_at", self.other_at)
+        return [1.0, self.body, self.other, *at, as_number("angle", self.angle), *far]
 
 
 def flat_bodies(bodies: Sequence[Body]) -> list[float]:
@@ -333,6 +222,12 @@ def flat_bodies(bodies: Sequence[Body]) -> list[float]:
             found += [float(number) for row in part._rows() for number in (0 if body.stands else moving, k, *row)]
         standing += len(body.parts) * body.stands
     return found
+
+
+def place_of(name: str, at: Any) -> list[float]:
+    """Depth and height of a point."""
+    x, y = _point(name, at)
+    return [-x, y]
 
 
 def _point(name: str, at: Any) -> Point:

@@ -1,4 +1,4 @@
-"""The tables of a chain as files that cases and tables of walls name: bodies, joints, and what acts on them."""
+"""The tables of a chain as files that cases and tables of walls name: bodies, joints, what acts on them, and ties."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._storage.tables import Table, csv_lines, shortest, write_lines
+from dondolo.walls.chain_actions import INERTIAS
 from dondolo.walls.chain_parts import MASS, SECTOR
 
 if TYPE_CHECKING:
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
 
 # Depths and heights below this are roundings of zero / height
 _ZERO = 1e-12
-# Which parts of a load are lifted and pushed, by its word
-_INERTIAS = {(0.0, 0.0): "none", (1.0, 0.0): "vertical", (1.0, 1.0): "both"}
+# Words of the parts of a load that are lifted and pushed
+_WORDS = {parts: word for word, parts in INERTIAS.items()}
 
 
 def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
@@ -28,6 +29,7 @@ def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...
         "bodies": _bodies(_zeros(wall._rows("body_table"), [5, 6], least)),
         "joints": _joints(_zeros(wall._rows("joint_table"), [3, 4, 6, 7], least)),
         "actions": _actions(_zeros(wall._rows("action_table"), [1, 2], least)),
+        "ties": _ties(_zeros(wall._rows("tie_table"), [2, 3, 5, 6], least)),
     }
     paths = []
     for name, table in tables.items():
@@ -96,9 +98,9 @@ def _actions(rows: FloatArray) -> Table:
     words = []
     for row in rows:
         moved = (float(row[4]), float(row[5]))
-        if moved not in _INERTIAS:
+        if moved not in _WORDS:
             raise argument_error("not_a_word", "inertia", f": a file has no word for parts {moved} of a load that move")
-        words.append(_INERTIAS[moved] if row[3] > 0.0 else "none")
+        words.append(_WORDS[moved] if row[3] > 0.0 else "none")
     return {
         "body": _numbers(rows[:, 0]),
         "depth [m]": rows[:, 1] + 0.0,
@@ -109,4 +111,28 @@ def _actions(rows: FloatArray) -> Table:
         "mass [kg]": rows[:, 6],
         "thrust [N]": rows[:, 7],
         "angle [deg]": rows[:, 8],
+    }
+
+
+def _ties(rows: FloatArray) -> Table:
+    """Rows of ties: of one to the ground its other anchor is not known."""
+
+    def of_two(place: int) -> list[float | None]:
+        return [float(row[place]) if row[1] > 0.0 else None for row in rows]
+
+    return {
+        "body": _numbers(rows[:, 0]),
+        "other": _numbers(rows[:, 1]),
+        "depth [m]": rows[:, 2] + 0.0,
+        "height [m]": rows[:, 3] + 0.0,
+        "angle [deg]": rows[:, 4] + 0.0,
+        "other_depth [m]": of_two(5),
+        "other_height [m]": of_two(6),
+        "area [m2]": rows[:, 7],
+        "length [m]": rows[:, 8],
+        "modulus [Pa]": rows[:, 9],
+        "strength [Pa]": rows[:, 10],
+        "preload [Pa]": rows[:, 11],
+        "strain": rows[:, 12],
+        "anchor_force [N]": [float(force) if force > 0.0 else None for force in rows[:, 13]],
     }

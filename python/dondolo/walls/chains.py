@@ -14,23 +14,13 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, argument_error, as_path, wrong_type
 from dondolo._fortran.walls import chain_facts, chain_motion
 from dondolo._storage.saved import part_of_results
-from dondolo.walls.chain_parts import (
-    CORNER,
-    SECTOR,
-    Body,
-    Guide,
-    Pin,
-    Point,
-    PointLoad,
-    PointMass,
-    PointThrust,
-    flat_bodies,
-)
+from dondolo.walls.chain_actions import PointLoad, PointMass, PointThrust, PointTie
+from dondolo.walls.chain_parts import CORNER, SECTOR, Body, Guide, Pin, Point, flat_bodies
 from dondolo.walls.chain_tables import write_tables
 from dondolo.walls.wall import DEFAULT, Wall, upload
 
 # Numbers of a row of each table
-TABLES = {"body_table": 11, "joint_table": 8, "action_table": 10}
+TABLES = {"body_table": 11, "joint_table": 8, "action_table": 10, "tie_table": 14}
 
 # Sides of the outline of a sector on each of its arcs
 _SIDES = 24
@@ -72,6 +62,8 @@ class Chain(Wall):
         need 3 n - 1.
     actions : str, path or sequence of PointLoad, PointMass or PointThrust, optional
         CSV file of loads, pushed masses and thrusts at points of the bodies, or a list of them.
+    ties : str, path or sequence of PointTie, optional
+        CSV file of ties, which hold its bodies outwards, or the ties.
     driver : float, optional
         Number of the body whose turn is the rotation q; 1 if left out.
     gravity_share : float, optional
@@ -85,13 +77,15 @@ class Chain(Wall):
         Rows of the joints as numbers, 8 a row, instead of their file.
     action_table : sequence of float, optional
         Rows of the actions as numbers, 10 a row, instead of their file.
+    tie_table : sequence of float, optional
+        Rows of the ties as numbers, 14 a row, instead of their file.
 
     Raises
     ------
     InputError
         Joints that leave more or less than one degree of freedom, or depend on one another; bodies that overlap; a
-        hinge on the side on which its joint closes; a chain that does not stand at rest; two sides whose multipliers or
-        capacities differ by more than 2 %.
+        hinge on the side on which its joint closes; a chain that does not stand at rest without its ties; a tie that
+        the motion does not stretch; two sides whose multipliers or capacities differ by more than 2 %.
 
     Notes
     -----
@@ -118,23 +112,29 @@ class Chain(Wall):
     bodies: InitVar[str | os.PathLike[str] | Sequence[Body] | None] = None
     joints: InitVar[str | os.PathLike[str] | Sequence[Pin | Guide] | None] = None
     actions: InitVar[str | os.PathLike[str] | Sequence[PointLoad | PointMass | PointThrust] | None] = None
+    ties: InitVar[str | os.PathLike[str] | Sequence[PointTie] | None] = None
     driver: float | None = None
     gravity_share: float | None = None
     sides: float = DEFAULT
     body_table: Sequence[float] | None = None
     joint_table: Sequence[float] | None = None
     action_table: Sequence[float] | None = None
+    tie_table: Sequence[float] | None = None
 
-    def __post_init__(self, bodies: Any, joints: Any, actions: Any) -> None:
+    def __post_init__(self, bodies: Any, joints: Any, actions: Any, ties: Any) -> None:
         files = {}
-        kinds = (Body,), (Pin, Guide), (PointLoad, PointMass, PointThrust)
-        for name, given, kind in zip(("bodies", "joints", "actions"), (bodies, joints, actions), kinds, strict=True):
+        kinds = {
+            "bodies": (bodies, "body_table", (Body,)),
+            "joints": (joints, "joint_table", (Pin, Guide)),
+            "actions": (actions, "action_table", (PointLoad, PointMass, PointThrust)),
+            "ties": (ties, "tie_table", (PointTie,)),
+        }
+        for name, (given, table, kind) in kinds.items():
             if given is None:
                 continue
             if isinstance(given, (str, os.PathLike)):
                 files[name] = as_path(given).decode()
                 continue
-            table = {"bodies": "body_table", "joints": "joint_table", "actions": "action_table"}[name]
             if getattr(self, table) is not None:
                 raise argument_error("not_together", table, f": give either it or {name}")
             for one in given:
@@ -215,13 +215,14 @@ class Chain(Wall):
         return found
 
     def write_tables(self, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
-        """Write the files of its bodies, joints and actions, for a case or a table of walls.
+        """Write the files of its bodies, joints, actions and ties, for a case or a table of walls.
 
         Parameters
         ----------
         prefix : str or path
-            What their names begin with: `arch` gives `arch_bodies.csv`, `arch_joints.csv` and `arch_actions.csv`, the
-            last only if something acts on it. Files of these names are replaced.
+            What their names begin with: `arch` gives `arch_bodies.csv`, `arch_joints.csv`, `arch_actions.csv` and
+            `arch_ties.csv`, the last two only if something acts on it and if it has ties. Files of these names are
+            replaced.
 
         Returns
         -------

@@ -16,7 +16,7 @@ from dondolo.figures.wording import say
 from dondolo.walls.chains import Chain
 from dondolo.walls.drawing_chain import draw_chain
 from dondolo.walls.drawing_loads import caption, draw_loads
-from dondolo.walls.elevation import height_of
+from dondolo.walls.elevation import axis_of, height_of
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import shape, wedges, width_of
@@ -109,7 +109,7 @@ def _moment(wall: TabulatedWall, rotation: ArrayLike) -> FloatArray:
 
 
 def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
-    """The ground, the transverse wall of a one-sided wall, the top support of a two-block wall."""
+    """The ground, what is behind a one-sided wall, the top support of a two-block wall."""
     t, h = width_of(wall), wall.height
     reach = _reach(wall)
     ax.plot([-reach, t + reach], [0.0, 0.0], color=style.BLACK, linewidth=1.6)
@@ -121,7 +121,10 @@ def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
         middle, is_whole = _free_height(wall)
         # Between labels of what holds the wall there is half the room.
-        text = say("both walls") if isinstance(wall, Corner) else say("transverse wall")
+        # A panel may have anything behind it: a roof, a floor, masonry.
+        text = say("transverse wall") if axis_of(wall) is None else say("what is behind")
+        if isinstance(wall, Corner):
+            text = say("both walls")
         text = text if is_whole else text.replace(" ", "\n")
         ax.annotate(text, (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=theme().note)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.arguments import FloatArray
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
@@ -33,6 +34,11 @@ def draw_chain(wall: Chain, rotation: float, ax: Axes | None, options: Options, 
         ax.fill(x, corners[:, 1], **look)
     _draw_joints(ax, wall, abs(rotation), side, middle)
     _draw_actions(ax, wall, abs(rotation), side, middle)
+    for row, ends in zip(wall._rows("tie_table"), ends_of_ties(wall, abs(rotation)), strict=True):
+        x = middle + side * (ends[:, 0] - middle)
+        ax.plot(x, ends[:, 1], color=style.BLACK, linewidth=1.4, linestyle=(0, (6, 2, 1, 2)), zorder=5)
+        words = say("tie {area:.3g} cm²", area=1e4 * row[7])
+        ax.annotate(words, (x[1], ends[1, 1]), (0, 3), textcoords="offset points", fontsize=theme().note)
     ax.set_aspect("equal")
     ax.margins(0.12)
     ax.set_xlabel("x [m]")
@@ -59,6 +65,21 @@ def _draw_joints(ax: Axes, wall: Chain, rotation: float, side: float, middle: fl
         x, y = wall._moved([at], body, rotation)[0]
         look: dict[str, Any] = {"marker": "o"} if int(row[0]) == 2 else {"marker": "s", "markerfacecolor": "white"}
         ax.plot(middle + side * (x - middle), y, linestyle="none", color=style.RED, markersize=6, zorder=4, **look)
+
+
+def ends_of_ties(wall: Chain, rotation: float) -> list[FloatArray]:
+    """Anchor of each tie at a rotation, and its other end, of a tie to the ground a point on its way there."""
+    found, reach = [], 0.25 * max(wall.height, 1.0)
+    for row in wall._rows("tie_table"):
+        near = wall._moved([(-row[2], row[3])], int(row[0]), rotation)[0]
+        angle = np.radians(row[4])
+        far = (
+            wall._moved([(-row[5], row[6])], int(row[1]), rotation)[0]
+            if row[1] > 0.0
+            else np.array([-row[2], row[3]]) - reach * np.array([np.cos(angle), np.sin(angle)])
+        )
+        found.append(np.array([near, far]))
+    return found
 
 
 def _draw_actions(ax: Axes, wall: Chain, rotation: float, side: float, middle: float) -> None:

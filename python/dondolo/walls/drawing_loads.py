@@ -16,7 +16,7 @@ from dondolo.figures import style
 from dondolo.figures.themes import theme
 from dondolo.figures.wording import decimal, in_english, say
 from dondolo.walls.elevation import height_of
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.mechanisms import Corner, TwoBlockWall
 from dondolo.walls.parts import Load, Thrust, Tie, parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys, width_of
 from dondolo.walls.wall import MasonryWall, effective_property
@@ -36,6 +36,7 @@ _OF_TIES = (
     (_("preload"), "tie_preload", 1e-6, " MPa"),
     (_("breaks at a strain of"), "tie_strain", 1.0, ""),
     (_("anchor gives way at"), "tie_anchor_force", 1e-3, " kN/m"),
+    (_("anchor gives way at"), "tie_anchor_total", 1e-3, " kN"),
     (_("bar"), "tie_bar", 1e3, " mm"),
     (_("every"), "tie_spacing", 1.0, " m"),
     (_("plate wide"), "tie_plate_width", 1e3, " mm"),
@@ -99,13 +100,10 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
     for tie in parts_of(wall, "ties"):
         _frustum(ax, wall, tie, rotation)
         plate = tie.plate_height or tie.plate_diameter or 0.5 * size
-        _tie(
-            ax,
-            _place(wall, tie.depth or 0.0, tie.height, rotation),
-            size,
-            plate,
-            say("tie {area:.3g} cm²/m", area=1e4 * tie.section),
-        )
+        area = 1e4 * tie.section
+        whole = isinstance(wall, Corner)
+        words = say("tie {area:.3g} cm²", area=area) if whole else say("tie {area:.3g} cm²/m", area=area)
+        _tie(ax, _place(wall, tie.depth or 0.0, tie.height, rotation), size, plate, words)
     for stones in parts_of(wall, "interlock"):
         _teeth(ax, wall, stones, rotation)
     for bed in parts_of(wall, "distributed_springs"):

@@ -437,6 +437,9 @@ class Corner(MasonryWall):
         Vertical loads that go with the wall.
     thrusts : sequence of Thrust, optional
         Horizontal forces outwards, along the bisector.
+    ties : sequence of Tie, optional
+        Ties along one of the two walls each, by the diameter of their `bar`; `depth` is that of the anchor on the
+        bisector.
     hinge_level : float, optional
         Heights of hinges: each makes a wall of what is above it [m]. The cracks then begin at this level.
 
@@ -473,6 +476,7 @@ class Corner(MasonryWall):
     stress_block: float | None = None
     loads: Sequence[Load] = ()
     thrusts: Sequence[Thrust] = ()
+    ties: Sequence[Tie] = ()
     hinge_level: InitVar[float | Sequence[float] | None] = None
 
     def __post_init__(self, hinge_level: float | Sequence[float] | None) -> None:

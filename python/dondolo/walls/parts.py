@@ -241,7 +241,8 @@ class Tie(Part):
     """A tie that holds a wall until it yields and breaks, or its anchor gives way.
 
     It is given by its `area`, or by the diameter of its `bar` and their `spacing`; its anchor by the force at which it
-    gives way, or by its plate, with the strengths of the masonry that the wall has (docs/ties.md).
+    gives way, or by its plate, with the strengths of the masonry that the wall has (docs/ties.md). A tie of a corner
+    has a `bar` alone, and its anchor an `anchor_total`.
 
     Examples
     --------
@@ -275,6 +276,7 @@ class Tie(Part):
     preload: float | None = None
     strain: float | None = None
     anchor_force: float | None = None
+    anchor_total: float | None = None
     plate_width: float | None = None
     plate_height: float | None = None
     plate_diameter: float | None = None
@@ -284,9 +286,9 @@ class Tie(Part):
 
     @property
     def section(self) -> float:
-        """Section per metre of wall [m2/m], whether given by its area or by its bars."""
-        if self.bar and self.spacing:
-            return float(0.25 * np.pi * self.bar**2 / self.spacing)
+        """Section per metre of wall [m2/m], whether given by its area or by its bars; of a corner the whole [m2]."""
+        if self.bar:
+            return float(0.25 * np.pi * self.bar**2 / (self.spacing or 1.0))
         return self.area or 0.0
 
 

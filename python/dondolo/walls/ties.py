@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
@@ -12,7 +13,10 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.tables import TableColumns, tie_columns
 from dondolo._fortran.walls import open_anchors, tie_states, tie_tallies
 from dondolo._storage.saved import part_of_results
-from dondolo.walls.parts import parts_of
+from dondolo.walls.chain_actions import PointTie
+from dondolo.walls.chains import Chain
+from dondolo.walls.mechanisms import Corner
+from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.wall import Wall, upload
 
 IntArray = NDArray[np.int32]
@@ -64,9 +68,50 @@ class TieCounts(NamedTuple):
         return tuple(found)
 
 
+class Bar(NamedTuple):
+    """A tie as the motion of a wall feels it.
+
+    Attributes
+    ----------
+    height : float
+        Of its anchor [m].
+    section, length : float
+        Section, per metre of wall [m2/m] or of a whole body [m2], and length that is free to stretch [m].
+    modulus, strength, preload, strain, anchor_force : float or None
+        As of `Tie`; None: what is usual.
+    """
+
+    height: float
+    section: float
+    length: float
+    modulus: float | None
+    strength: float | None
+    preload: float | None
+    strain: float | None
+    anchor_force: float | None
+
+
+def given_ties(wall: Wall) -> tuple[Tie | PointTie, ...]:
+    """The ties of a wall as they are given, of a chain as its rows have them."""
+    if isinstance(wall, Chain):
+        return tuple(map(PointTie._of_row, wall._rows("tie_table").tolist()))
+    return parts_of(wall, "ties")
+
+
+def ties_of(wall: Wall) -> tuple[Bar, ...]:
+    """The ties of a wall along its motion: of a corner each goes along one wall, at 45 degrees from the bisector."""
+    share = math.sqrt(0.5) if isinstance(wall, Corner) else 1.0
+    found = []
+    for tie in given_ties(wall):
+        anchor = getattr(tie, "anchor_total", None) or tie.anchor_force
+        bar = (tie.modulus, tie.strength, tie.preload, tie.strain)
+        found.append(Bar(tie.height, share * tie.section, tie.length / share, *bar, anchor and share * anchor))
+    return tuple(found)
+
+
 def number_of_ties(wall: Wall) -> int:
     """How many ties a wall has."""
-    return len(parts_of(wall, "ties"))
+    return len(given_ties(wall))
 
 
 def ties_without_anchor(wall: Wall) -> list[int]:

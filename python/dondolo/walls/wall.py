@@ -468,6 +468,9 @@ def property_of(wall: Wall, name: str) -> Any:
     """A property of a wall, of its parts as a list, or of the building that it stands on; None where it has none."""
     if name in PLACES:
         return wall.__dict__["_lists"].get(name)
+    if name in KINDS:
+        # A file of a chain, where other walls have parts of this name
+        return None
     return getattr(wall.building if name in BUILDING_NAMES else wall, name, None)
 
 

@@ -1,6 +1,7 @@
 !> The sums behind a kinematic check, item by item, so that they can be made again by hand: of a wall that turns about its base its
 !> storeys, wedges of transverse walls, loads, masses, thrusts and ties; of a corner its square and its wings in place of storeys;
-!> of a strip that bends its two blocks, the load on top, and what acts between; of a chain its bodies and what acts on them.
+!> of a strip that bends its two blocks, the load on top, and what acts between; of a chain its bodies, and what acts on and holds
+!> them.
 !>
 !> A unit of rotation lifts an item by its arm and moves it outwards by its lever:
 !>
@@ -17,6 +18,7 @@ module dondolo_check_calculation
    use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_chain_terms, only : set_at_rest
    use dondolo_wall_corner, only : body_of_wing, edge_of_corner
+   use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_rigid_body, only : body_of_sections, rigid_body_type, same
    use dondolo_wall_tabulated_model, only : tabulated_model_type
@@ -78,6 +80,7 @@ contains
          end select
       type is (chain_model_type)
          call list_chain(items, model%chain)
+         call list_ties(items, model%chain, wall%mechanism)
       class is (tabulated_model_type)
          call list_bodies(items, model, wall%mechanism%moment(0.0_wp))
       end select
@@ -266,6 +269,25 @@ contains
       item%stabilising = none
       item%first = none
    end function as_one_point
+
+   !> List the ties of a chain
+   subroutine list_ties(items, chain, mechanism)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(chain_type), intent(in) :: chain
+      !> Has them
+      class(mechanism_type), intent(in) :: mechanism
+
+      type(item_type) :: item
+      integer :: i
+
+      do i = 1, mechanism%ties
+         associate (tie => mechanism%restraints(i))
+            item = item_type('tie '//to_text(i), tie%strength, 0.0_wp - chain%ties(i)%at(1), lever=tie%lever_at(0.0_wp))
+            item%stabilising = item%force*item%lever
+            items = [items, item]
+         end associate
+      end do
+   end subroutine list_ties
 
    !> List what acts on a wall
    subroutine list_actions(items, wall, gravity)

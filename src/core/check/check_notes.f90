@@ -248,8 +248,12 @@ contains
 
       type(warning_type) :: note
       character(len=len(sheet%rows%item)) :: item
+      character(len=:), allocatable :: per
+      logical :: is_whole
       integer :: i
 
+      is_whole = any(sheet%rows%quantity%name == 'tie_force_per_m' .and. sheet%rows%quantity%unit == 'N')
+      per = trim(merge('  ', '/m', is_whole))
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))
             item = row%item
@@ -258,8 +262,8 @@ contains
             case ('hierarchy')
                call begin(anchor_before_bar, [character(len=18) :: 'anchor_force_per_m', 'bar_force_per_m'])
                call notes%add(note, 'hierarchy of strengths not respected: the anchor of '//trim(item)//' gives way at '// &
-                  & trim(of_tie('anchor_force_per_m'))//' N/m, before its bar yields at '//trim(of_tie('bar_force_per_m'))// &
-                  & ' N/m, and at once; a linear check of SLV with q > 1 is not applicable')
+                  & trim(of_tie('anchor_force_per_m'))//' N'//per//', before its bar yields at '// &
+                  & trim(of_tie('bar_force_per_m'))//' N'//per//', and at once; a linear check of SLV with q > 1 is not applicable')
             case ('plate_verified')
                call begin(plate_too_thin, [character(len=18) :: 'plate_thickness', 'plate_needed'])
                call notes%add(note, 'the plate of '//trim(item)//' is too thin: '//trim(of_tie('plate_thickness'))// &
@@ -289,6 +293,7 @@ contains
 
          note = warning_type(code)
          call note%about('item', trim(item))
+         if (is_whole .and. code == anchor_before_bar) call note%about('of', 'whole')
          do k = 1, size(names)
             call note%with(trim(names(k)), sheet%value('tie', '', trim(names(k)), item))
          end do

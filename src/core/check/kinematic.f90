@@ -40,6 +40,7 @@ module dondolo_check_kinematic
    use dondolo_wall, only : wall_type
    use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_body, only : wall_body_type
+   use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_elastic_joint, only : elastic_joint_type
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_one_block_model, only : one_block_model_type
@@ -299,6 +300,10 @@ contains
       kinematic%weight = sum(model%weight)
       kinematic%mass = first**2/second/kinematic%gravity
       kinematic%mass_ratio = first**2/(kinematic%weight*second)
+      select type (model)
+      type is (chain_model_type)
+         kinematic%anchors = model%anchors
+      end select
    end subroutine take_table
 
    !> Take weights and levers of a strip that bends

@@ -10,7 +10,9 @@ module dondolo_check_tie_curves
    use dondolo_check_checked_wall, only : find_checked, make_again, move_hinge
    use dondolo_check_kinematic, only : kinematic_type, new_kinematic
    use dondolo_check_sheet, only : item_length
-   use dondolo_wall, only : wall_type
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_chain_model, only : chain_model_type
+   use dondolo_wall_chain_ties, only : tie_numbers
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_properties, only : is_beyond_bare, is_of_tie
    use dondolo_wall_restraint, only : restraint_type
@@ -72,9 +74,12 @@ contains
       type(wall_type) :: checked
       real(wp) :: hinge, least
       integer :: i
-      logical :: is_moved
+      logical :: is_moved, is_chain
 
+      is_chain = .false.
       select type (model => wall%model)
+      type is (chain_model_type)
+         is_chain = .true.
       type is (one_block_model_type)
          call drop(model%body%actions%restraints)
          ! Without its ties it may be a bare rectangle, which is what it has to equal to the last bit
@@ -97,6 +102,15 @@ contains
             call move_hinge(wall, hinge, error)
          end if
       end select
+      ! Its motion follows from its rows.
+      if (is_chain) then
+         associate (rows => wall%input%list('tie_table'))
+            call wall%input%set('tie_table', pack(rows, [(.not. spread(is_left_out(i), 1, tie_numbers), &
+               & i=1, size(is_left_out))]))
+         end associate
+         call new_wall(checked, wall%input, error, wall%gravity)
+         if (.not. allocated(error)) wall = checked
+      end if
 
    contains
 

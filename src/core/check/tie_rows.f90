@@ -5,6 +5,7 @@ module dondolo_check_tie_rows
    use dondolo_check_sheet, only : sheet_type, shown, working_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_anchor, only : anchor_type, partial_factor
+   use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_one_block_model, only : one_block_model_type
    implicit none
    private
@@ -21,6 +22,8 @@ contains
       select type (model => wall%model)
       type is (one_block_model_type)
          if (allocated(model%body%anchors)) is_open = .not. model%body%anchors%has_strength()
+      type is (chain_model_type)
+         is_open = .not. model%anchors%has_strength()
       end select
       if (.not. allocated(is_open)) allocate (is_open(0))
    end function open_anchors

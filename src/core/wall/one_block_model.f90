@@ -60,6 +60,8 @@ module dondolo_wall_one_block_model
       & reshape([one_block_names, two_block_name], [most_choices], pad=blank)
    character(len=choices_length), parameter :: tied(most_choices) = reshape([one_block_names(:1), two_block_name], &
       & [most_choices], pad=blank)
+   character(len=choices_length), parameter :: barred(most_choices) = &
+      & reshape([one_block_names(:1), two_block_name, corner_name], [most_choices], pad=blank)
 
    !> Which mass a load brings: none, one that the wall lifts, one that it lifts and pushes
    character(len=choices_length), parameter :: load_inertias(*) = &
@@ -192,43 +194,48 @@ module dondolo_wall_one_block_model
       & property_type('distributed_spring_top', is_list, unit='m', owners=one_block, optional=.true., example='3.0', &
       &   usual_most=60.0_wp, &
       &   meaning='height at which each of them ends'), &
-      & property_type('tie_height', is_list, unit='m', owners=tied, optional=.true., example='7.4', &
+      & property_type('tie_height', is_list, unit='m', owners=barred, optional=.true., example='7.4', &
       &   usual_most=60.0_wp, not_with='leaves', because=on_one_leaf, &
       &   meaning='height of the anchor of each tie above the base'), &
-      & property_type('tie_depth', is_list, unit='m', owners=tied, optional=.true., example='0.0', &
+      & property_type('tie_depth', is_list, unit='m', owners=barred, optional=.true., example='0.0', &
       &   absent=0.0_wp, usual_most=3.0_wp, &
       &   meaning='depth of each anchor behind the outer face, 0 if not given'), &
       & property_type('tie_area', is_list, unit='m2/m', owners=tied, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e-2_wp, usual_least=1.0e-6_wp, usual_most=1.0e-3_wp, &
       &   example='5.0e-5', absent=0.0_wp, zero='none', &
       &   meaning='section of each tie per metre of wall: that of a bar / distance of two bars'), &
-      & property_type('tie_bar', is_list, unit='m', owners=tied, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
+      & property_type('tie_bar', is_list, unit='m', owners=barred, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
       &   usual_least=5.0e-3_wp, usual_most=0.1_wp, example='0.024', absent=0.0_wp, zero='none', &
-      &   meaning='diameter of the bar of each tie, with tie_spacing instead of tie_area'), &
+      &   meaning='diameter of the bar of each tie, with tie_spacing instead of tie_area; of a corner without a '// &
+      &   'spacing'), &
       & property_type('tie_spacing', is_list, unit='m', owners=tied, optional=.true., smallest=0.0_wp, largest=1.0e3_wp, &
       &   usual_least=0.3_wp, usual_most=20.0_wp, example='2.5', absent=0.0_wp, zero='none', &
       &   meaning='distance of two bars of each tie along the wall'), &
-      & property_type('tie_length', is_list, unit='m', owners=tied, optional=.true., positive=.true., &
+      & property_type('tie_length', is_list, unit='m', owners=barred, optional=.true., positive=.true., &
       &   smallest=0.1_wp, largest=1.0e3_wp, usual_most=60.0_wp, example='8.0', &
       &   meaning='length of each tie that is free to stretch, as a rule up to its other anchor'), &
       ! Where none are given: modulus and yield stress of historic iron, and the strain that anchorages leave
-      & property_type('tie_modulus', is_list, unit='Pa', owners=tied, optional=.true., positive=.true., &
+      & property_type('tie_modulus', is_list, unit='Pa', owners=barred, optional=.true., positive=.true., &
       &   smallest=1.0e8_wp, largest=1.0e12_wp, usual_least=1.0e9_wp, usual_most=5.0e11_wp, &
       &   example='2.06e11', absent=2.06e11_wp, &
       &   meaning='modulus of elasticity of each tie, 2.06e11 if not given'), &
-      & property_type('tie_strength', is_list, unit='Pa', owners=tied, optional=.true., positive=.true., &
+      & property_type('tie_strength', is_list, unit='Pa', owners=barred, optional=.true., positive=.true., &
       &   largest=1.0e10_wp, usual_least=1.0e7_wp, usual_most=3.0e9_wp, &
       &   example='1.8e8', absent=1.8e8_wp, meaning='yield stress of each tie, 1.8e8 if not given'), &
-      & property_type('tie_preload', is_list, unit='Pa', owners=one_sided, optional=.true., smallest=0.0_wp, &
+      & property_type('tie_preload', is_list, unit='Pa', owners=leaning, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e10_wp, usual_least=1.0e5_wp, if_less='is it in MPa, or a force?', example='0.0', &
       &   absent=0.0_wp, meaning='stress of each tie at rest, less than its yield stress, 0 if not given'), &
-      & property_type('tie_strain', is_list, owners=tied, optional=.true., positive=.true., largest=1.0_wp, &
+      & property_type('tie_strain', is_list, owners=barred, optional=.true., positive=.true., largest=1.0_wp, &
       &   usual_most=0.3_wp, if_more='is it in per cent?', example='0.02', &
       &   absent=0.02_wp, meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
       & property_type('tie_anchor_force', is_list, unit='N/m', owners=tied, optional=.true., smallest=1.0e-9_wp, &
       &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, &
       &   if_more='is it per metre of wall?', example='6.0e3', &
       &   meaning='force per metre of wall at which each anchor gives way at once; none if not given'), &
+      & property_type('tie_anchor_total', is_list, unit='N', owners=corner, optional=.true., smallest=1.0e-9_wp, &
+      &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, example='20.0e3', &
+      &   meaning='force at which the anchor of each tie of a corner gives way at once, in all and not per metre; none if not '// &
+      &   'given'), &
       & property_type('tie_plate_width', is_list, unit='m', owners=tied, optional=.true., smallest=0.0_wp, largest=10.0_wp, &
       &   usual_least=0.03_wp, usual_most=1.5_wp, example='0.35', absent=0.0_wp, zero='none', &
       &   meaning='width of the plate of each tie, from which the force of its anchor follows instead of tie_anchor_force'), &

@@ -9,10 +9,11 @@
 module dondolo_wall_restraint
    use dondolo_base_kinds, only : wp
    use dondolo_wall_travel, only : lever, rotation_after, travel
+   use dondolo_wall_travel_series, only : travel_series_type
    implicit none
    private
 
-   public :: link_type, restraint_type, tie_input_type, new_friction, new_tie
+   public :: link_type, restraint_type, tie_input_type, new_friction, new_tie, new_tie_along
    public :: elastic, flowing, slack, broken
 
    !> Modes, in each of which the force is smooth: T_0 + k (D - D_p); F_y, for friction F_y (1 - D/D_u); none until the wall is
@@ -52,13 +53,15 @@ module dondolo_wall_restraint
       procedure :: rotation
    end type link_type
 
-   !> A tie or friction, all per metre of wall
+   !> A tie or friction, per metre of wall or of a whole body
    type :: restraint_type
       !> Anchor from the hinge, of the upper block of a strip from the hinge at its top downwards, and radius of the edge that the
       !> wall rolls on [m]
       real(wp) :: e = 0.0_wp, f = 0.0_wp, edge = 0.0_wp
       !> The block of a strip that it holds
       type(link_type) :: link
+      !> Instead of these: its elongation along any mechanism
+      type(travel_series_type) :: along
       !> Stiffness k [N/m per m], force at rest T_0 and largest force F_y [N/m]
       real(wp) :: stiffness = 0.0_wp, preload = 0.0_wp, strength = 0.0_wp
       !> Elongations from rest at which it yields, D_y, and breaks, D_u [m]
@@ -79,6 +82,8 @@ module dondolo_wall_restraint
       procedure :: slack_below
       !> Force as a constant and a stiffness
       procedure :: linear_force
+      procedure, private :: rotation_at
+      procedure, private :: set_forces
    end type restraint_type
 
 contains
@@ -94,16 +99,37 @@ contains
       tie%e = input%depth - hinge
       tie%f = input%height - edge
       tie%edge = edge
-      tie%stiffness = input%modulus*input%area/input%length
-      tie%preload = input%preload*input%area
-      tie%strength = min(input%strength*input%area, input%anchor_force)
-      tie%yield_travel = (tie%strength - tie%preload)/tie%stiffness
-      tie%fracture_travel = input%strain*input%length - tie%preload/tie%stiffness
-      ! An anchor that gives way does so at once.
-      if (input%anchor_force < input%strength*input%area) tie%fracture_travel = tie%yield_travel
-      tie%yield = rotation_after(edge, tie%e, tie%f, tie%yield_travel)
-      tie%fracture = rotation_after(edge, tie%e, tie%f, tie%fracture_travel)
+      call tie%set_forces(input)
    end function new_tie
+
+   !> Make a tie of any mechanism
+   pure function new_tie_along(input, along) result(tie)
+      !> Its input, checked; its depth and its height do not count
+      type(tie_input_type), intent(in) :: input
+      !> Its elongation
+      type(travel_series_type), intent(in) :: along
+      type(restraint_type) :: tie
+
+      tie%along = along
+      call tie%set_forces(input)
+   end function new_tie_along
+
+   !> Set what follows from the bar and its anchor
+   pure subroutine set_forces(self, input)
+      !> Its elongation is known
+      class(restraint_type), intent(inout) :: self
+      type(tie_input_type), intent(in) :: input
+
+      self%stiffness = input%modulus*input%area/input%length
+      self%preload = input%preload*input%area
+      self%strength = min(input%strength*input%area, input%anchor_force)
+      self%yield_travel = (self%strength - self%preload)/self%stiffness
+      self%fracture_travel = input%strain*input%length - self%preload/self%stiffness
+      ! An anchor that gives way does so at once.
+      if (input%anchor_force < input%strength*input%area) self%fracture_travel = self%yield_travel
+      self%yield = self%rotation_at(self%yield_travel)
+      self%fracture = self%rotation_at(self%fracture_travel)
+   end subroutine set_forces
 
    !> Make a friction that resists only a motion to new rotations
    pure function new_friction(depth, height, force, travelled, hinge, edge) result(tie)
@@ -168,7 +194,11 @@ contains
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
-      elongation = travel(self%edge, self%e, self%f, self%link%turned(q))
+      if (self%along%exists()) then
+         elongation = self%along%travelled(q)
+      else
+         elongation = travel(self%edge, self%e, self%f, self%link%turned(q))
+      end if
    end function elongation
 
    !> Its lever dD/dq [m]
@@ -177,8 +207,25 @@ contains
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
-      lever_at = self%link%rate(q)*lever(self%edge, self%e, self%f, self%link%turned(q))
+      if (self%along%exists()) then
+         lever_at = self%along%lever_at(q)
+      else
+         lever_at = self%link%rate(q)*lever(self%edge, self%e, self%f, self%link%turned(q))
+      end if
    end function lever_at
+
+   !> Rotation at which its elongation is a distance; huge: it never is [rad]
+   elemental real(wp) function rotation_at(self, distance) result(q)
+      class(restraint_type), intent(in) :: self
+      !> At least 0 [m]
+      real(wp), intent(in) :: distance
+
+      if (self%along%exists()) then
+         q = self%along%rotation_after(distance)
+      else
+         q = self%link%rotation(rotation_after(self%edge, self%e, self%f, distance))
+      end if
+   end function rotation_at
 
    !> Take the tie of a wall of one block for one of the upper block of a strip
    elemental subroutine move_up(self, height, link)
@@ -190,8 +237,8 @@ contains
 
       self%f = height - self%f
       self%link = link
-      self%yield = link%rotation(rotation_after(self%edge, self%e, self%f, self%yield_travel))
-      self%fracture = link%rotation(rotation_after(self%edge, self%e, self%f, self%fracture_travel))
+      self%yield = self%rotation_at(self%yield_travel)
+      self%fracture = self%rotation_at(self%fracture_travel)
    end subroutine move_up
 
    !> Plastic elongation D_p after a largest rotation; of a broken tie that at which it broke [m]
@@ -218,8 +265,7 @@ contains
 
       distance = plastic_elongation - self%preload/self%stiffness
       slack_below = 0.0_wp
-      if (distance > 0.0_wp) slack_below = &
-         & self%link%rotation(rotation_after(self%edge, self%e, self%f, distance))
+      if (distance > 0.0_wp) slack_below = self%rotation_at(distance)
    end function slack_below
 
    !> Its force as a constant and a stiffness: T = force + stiffness D

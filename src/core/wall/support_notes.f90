@@ -46,7 +46,7 @@ contains
       if (.not. allocated(wall%building)) return
       self%on_buildings = self%on_buildings + 1
       if (wall%mechanism_name() == corner_name .and. size(wall%building%period) > 1) self%corners = self%corners + 1
-      has_ties = size(wall%input%list('tie_height')) > 0
+      has_ties = wall%mechanism%ties > 0
       if (wall%building%share > 0.0_wp) then
          self%leaning = self%leaning + 1
          if (wall%input%has('participation') .and. .not. wall%input%has('participation_top')) then

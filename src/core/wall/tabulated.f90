@@ -9,6 +9,7 @@ module dondolo_wall_tabulated
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded
    use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_restraint, only : elastic, restraint_type
    use dondolo_wall_table_fit, only : fit_table
    implicit none
    private
@@ -45,7 +46,12 @@ module dondolo_wall_tabulated
       real(wp), allocatable :: inertia(:), slope(:), lever(:), restoring(:), work(:), vertical(:)
       !> Share k of the acceleration of its top, times its height [m], and tilt tau, times its height [m/s2]
       real(wp) :: share = 0.0_wp, tilt = 0.0_wp
+      !> Forces of its ties, T = force + stiffness D; not allocated: it has none
+      real(wp), allocatable, private :: force(:), stiffness(:)
    contains
+      !> Give it ties, none of which has yielded yet
+      procedure :: add_ties
+      procedure :: set_restraints
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
@@ -174,6 +180,31 @@ contains
       end do
    end subroutine check_signs
 
+   !> Give it ties, none of which has yielded yet
+   pure subroutine add_ties(self, ties)
+      class(tabulated_type), intent(inout) :: self
+      !> With their elongation along this mechanism
+      type(restraint_type), intent(in) :: ties(:)
+
+      real(wp), dimension(size(ties)) :: force, stiffness
+
+      self%restraints = ties
+      self%ties = size(ties)
+      self%preload = sum(ties%preload*ties%lever_at(0.0_wp))
+      call ties%linear_force(spread(elastic, 1, size(ties)), 0.0_wp, force, stiffness)
+      call self%set_restraints(force, stiffness)
+   end subroutine add_ties
+
+   !> Set the forces of the ties
+   pure subroutine set_restraints(self, force, stiffness)
+      class(tabulated_type), intent(inout) :: self
+      !> Of each of them: T = force + stiffness D [N/m] and [N/m per m], of a whole body [N] and [N/m]
+      real(wp), intent(in) :: force(:), stiffness(:)
+
+      self%force = force
+      self%stiffness = stiffness
+   end subroutine set_restraints
+
    !> Place of a rotation in the range of the series
    pure elemental real(wp) function place(self, q)
       class(tabulated_type), intent(in) :: self
@@ -207,10 +238,13 @@ contains
       l = chebyshev_value(self%lever, z)
       g = chebyshev_value(self%restoring, z)
       load = 0.0_wp
-      if (.not. allocated(self%vertical)) return
-      load = -g
-      g = self%gravity*chebyshev_value(self%vertical, z)
-      load = load + g
+      if (allocated(self%vertical)) then
+         load = -g
+         g = self%gravity*chebyshev_value(self%vertical, z)
+         load = load + g
+      end if
+      if (allocated(self%force)) load = load - sum((self%force + self%stiffness*self%restraints%elongation(q)) &
+         & *self%restraints%lever_at(q))
    end subroutine terms
 
    !> Work against the moment from rest
@@ -222,6 +256,8 @@ contains
       real(wp) :: v
 
       v = chebyshev_value(self%work, self%place(q))
+      if (allocated(self%force)) v = v + sum((self%force + 0.5_wp*self%stiffness*self%restraints%elongation(q)) &
+         & *self%restraints%elongation(q))
    end function potential
 
    !> The next rotation after the last of the table, which itself is one of its own

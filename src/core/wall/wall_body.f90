@@ -13,8 +13,9 @@ module dondolo_wall_body
    use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_wall_interlocking, only : read_interlocking
    use dondolo_wall_lists, only : take
+   use dondolo_wall_panel_places, only : check_panel_places
    use dondolo_wall_rigid_body, only : body_of_sections, faces_at, joined, rigid_body_type, same, section_type
-   use dondolo_wall_ties, only : read_ties
+   use dondolo_wall_ties, only : read_corner_ties, read_ties
    use dondolo_wall_elevation, only : read_elevation, top_of_elevation
    use dondolo_wall_wedge, only : read_wedges, wedge_reach, wedge_type
    implicit none
@@ -123,6 +124,7 @@ contains
       end do
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
+      if (input%has('axis_x')) call check_panel_places(input, problems)
       call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%restraints, &
          & wall%anchors)
       call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, &
@@ -146,7 +148,7 @@ contains
       integer :: before
 
       before = problems%count
-      allocate (wall%corner, wall%wedges(0), wall%anchors(0), wall%actions%springs(0), wall%actions%restraints(0))
+      allocate (wall%corner, wall%wedges(0), wall%actions%springs(0))
       wall%actions%is_whole = .true.
       call read_corner(input, problems, wall%corner)
       wall%sections = [section_type(wall%corner%height, sqrt(2.0_wp)*wall%corner%thickness)]
@@ -156,6 +158,8 @@ contains
       wall%body = body_of_corner(wall%corner)
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
+      call read_corner_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%restraints, &
+         & wall%anchors)
    end subroutine read_corner_body
 
    !> Read what acts between base and top of a strip: loads, masses, thrusts and ties

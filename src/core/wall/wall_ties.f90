@@ -12,7 +12,7 @@ module dondolo_wall_ties
    implicit none
    private
 
-   public :: read_ties
+   public :: read_corner_ties, read_ties
 
    !> How far outside the outer face an anchor may be [m]
    real(wp), parameter :: outside = 0.1_wp
@@ -66,6 +66,62 @@ contains
          ties(i) = new_tie(given(i), hinge, edge)
       end do
    end subroutine read_ties
+
+   !> Read the ties of a corner, each along one of its walls. On the bisector the anchor goes sqrt 2 times as far as the tie gets
+   !> longer, and the tie pulls with 1/sqrt 2 of its force: a bar of A/sqrt 2 and l sqrt 2 does the same along the bisector
+   subroutine read_corner_ties(input, sections, hinge, edge, problems, ties, anchors)
+      !> Settings of the corner
+      class(settings_type), intent(in) :: input
+      !> What its square covers of the bisector
+      type(section_type), intent(in) :: sections(:)
+      !> Depth of the hinge, and radius of the edge [m]
+      real(wp), intent(in) :: hinge, edge
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Ties, along the bisector; undefined if something is wrong
+      type(restraint_type), allocatable, intent(out) :: ties(:)
+      !> Their anchors, whole; those that are 0 long are not known
+      type(anchor_type), allocatable, intent(out) :: anchors(:)
+
+      real(wp), parameter :: share = sqrt(0.5_wp), pi = acos(-1.0_wp)
+      type(tie_input_type), allocatable :: given(:)
+      real(wp), allocatable :: values(:)
+      integer :: before, i
+
+      before = problems%count
+      allocate (given(size(input%list('tie_height'))))
+      allocate (anchors(size(given)), ties(size(given)))
+      given%height = input%list('tie_height')
+      call take(input, problems, 'tie_depth', 'tie_height', values, input%absent('tie_depth'))
+      given%depth = values
+      call take(input, problems, 'tie_bar', 'tie_height', values)
+      anchors%bar = values
+      anchors%area = 0.25_wp*pi*values**2
+      if (any(.not. values > 0.0_wp)) call problems%note('tie_bar: must be positive for each tie of a corner', out_of_range, &
+         & 'tie_bar')
+      call take(input, problems, 'tie_length', 'tie_height', values)
+      anchors%length = values
+      call take(input, problems, 'tie_modulus', 'tie_height', values, input%absent('tie_modulus'))
+      given%modulus = values
+      call take(input, problems, 'tie_strength', 'tie_height', values, input%absent('tie_strength'))
+      given%strength = values
+      anchors%strength = values
+      call take(input, problems, 'tie_preload', 'tie_height', values, input%absent('tie_preload'))
+      given%preload = values
+      call take(input, problems, 'tie_strain', 'tie_height', values, input%absent('tie_strain'))
+      given%strain = values
+      call take(input, problems, 'tie_anchor_total', 'tie_height', values, input%absent('tie_anchor_total'))
+      anchors%force_per_metre = values
+      if (problems%count > before) return
+      given%area = share*anchors%area
+      given%length = anchors%length/share
+      given%anchor_force = share*anchors%force_per_metre
+      do i = 1, size(given)
+         call check_tie('tie '//to_text(i), given(i), sections, edge, problems)
+         if (problems%count > before) cycle
+         ties(i) = new_tie(given(i), hinge, edge)
+      end do
+   end subroutine read_corner_ties
 
    !> Read bars and plates
    subroutine read_anchors(input, problems, anchors)

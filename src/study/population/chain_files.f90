@@ -1,4 +1,4 @@
-!> The files that a chain of rigid bodies has its bodies, joints and actions from, read where a wall is read.
+!> The files that a chain of rigid bodies has its bodies, joints, actions and ties from, read where a wall is read.
 !>
 !> CSV tables with a unit in brackets in the name of each column that has one: 'depth [m]'. Rows become numbers
 !> (dondolo_wall_chain_input); cells that are empty are 0.
@@ -9,19 +9,23 @@ module dondolo_population_chain_files
    use dondolo_files_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_files_paths, only : beside
    use dondolo_wall_chain_input, only : action_numbers, body_numbers, is_corner, is_mass, is_sector, joint_numbers
+   use dondolo_wall_chain_ties, only : tie_numbers
    use dondolo_wall_properties, only : wall_input_type
    implicit none
    private
 
    public :: take_chain
 
-   !> Columns of the three files, each with its unit
+   !> Columns of the four files, each with its unit
    character(len=16), parameter :: body_columns(*) = [character(len=16) :: 'body', 'part', 'width [m]', 'density [kg/m3]', &
       & 'depth [m]', 'height [m]', 'mass [kg]', 'inertia [kg m2]', 'inner [m]', 'outer [m]', 'from [deg]', 'to [deg]']
    character(len=16), parameter :: joint_columns(*) = [character(len=16) :: 'type', 'body', 'other', 'depth [m]', 'height [m]', &
       & 'angle [deg]', 'other_depth [m]', 'other_height [m]']
    character(len=16), parameter :: action_columns(*) = [character(len=16) :: 'body', 'depth [m]', 'height [m]', 'load [N]', &
       & 'inertia', 'held', 'mass [kg]', 'thrust [N]', 'angle [deg]']
+   character(len=16), parameter :: tie_columns(*) = [character(len=16) :: 'body', 'other', 'depth [m]', 'height [m]', &
+      & 'angle [deg]', 'other_depth [m]', 'other_height [m]', 'area [m2]', 'length [m]', 'modulus [Pa]', 'strength [Pa]', &
+      & 'preload [Pa]', 'strain', 'anchor_force [N]']
 
    !> Columns of words, and the numbers that these become: those of a row are told apart by which column they are of
    character(len=8), parameter :: types(*) = [character(len=8) :: 'guide', 'pin'], answers(*) = [character(len=8) :: 'no', 'yes'], &
@@ -46,6 +50,8 @@ contains
       if (.not. allocated(error) .and. allocated(rows)) call input%set('joint_table', [numbers_of_joints(rows)])
       call take('actions', 'action_table', action_columns, [1, 2, 3])
       if (.not. allocated(error) .and. allocated(rows)) call input%set('action_table', [numbers_of_actions(rows)])
+      call take('ties', 'tie_table', tie_columns, [1, 3, 4, 8, 9])
+      if (.not. allocated(error) .and. allocated(rows)) call input%set('tie_table', [numbers_of_ties(rows, input)])
 
    contains
 
@@ -209,5 +215,21 @@ contains
       numbers(8:9, :) = rows(8:9, :)
       numbers(10, :) = rows(6, :)
    end function numbers_of_actions
+
+   !> Rows of ties: what the table does not say of a bar is what ties of other walls have
+   function numbers_of_ties(rows, input) result(numbers)
+      real(wp), intent(in) :: rows(:, :)
+      type(wall_input_type), intent(in) :: input
+      real(wp) :: numbers(tie_numbers, size(rows, 2))
+
+      character(len=*), parameter :: names(3) = [character(len=12) :: 'tie_modulus', 'tie_strength', 'tie_strain']
+      integer, parameter :: places(3) = [10, 11, 13]
+      integer :: i
+
+      numbers = rows
+      do i = 1, size(names)
+         where (.not. abs(rows(places(i), :)) > 0.0_wp) numbers(places(i), :) = input%absent(trim(names(i)))
+      end do
+   end function numbers_of_ties
 
 end module dondolo_population_chain_files

@@ -11,6 +11,7 @@ module dondolo_population_designs
    use dondolo_fragility_clustered, only : confidence
    use dondolo_fragility_ratio, only : compare_parameters
    use dondolo_wall, only : wall_type
+   use dondolo_wall_chain_model, only : chain_model_type
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_tie_statics, only : plastic_acceleration
    implicit none
@@ -29,7 +30,7 @@ module dondolo_population_designs
       type(fragility_type) :: curve
       !> Change of ln theta without each cluster of records; 0 without standard errors
       real(wp), allocatable :: change(:)
-      !> Mass of its ties [kg per m of wall]
+      !> Mass of its ties [kg per m of wall], of a chain in all [kg]
       real(wp) :: steel = 0.0_wp
       !> Acceleration that it withstands statically with its ties at yield / gravity
       real(wp) :: alpha_0 = 0.0_wp
@@ -58,6 +59,8 @@ contains
       select type (model => wall%model)
       type is (one_block_model_type)
          if (allocated(model%body%anchors)) self%steel = steel_density*sum(model%body%anchors%area*model%body%anchors%length)
+      type is (chain_model_type)
+         self%steel = steel_density*sum(model%anchors%area*model%anchors%length)
       end select
    end subroutine take_wall
 

@@ -23,7 +23,7 @@ from dondolo.reporting.relazione.tabulated import table_steps
 from dondolo.reporting.units import UNITS, Unit, cell
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
-from dondolo.walls.parts import parts_of
+from dondolo.walls.ties import ties_of
 
 # How well the steps give the numbers of the check
 _SAME = 1e-9
@@ -61,7 +61,7 @@ def end_of(document: Document, one: Subject) -> list[Block]:
         "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
         " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}:"
     )
-    if parts_of(one.wall, "ties"):
+    if ties_of(one.wall):
         words = _(
             "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
             " {sum} {unit}. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
@@ -239,7 +239,7 @@ def _fracture(document: Document, one: Subject, d: float) -> list[Block]:
     sine = d * sums.first / sums.second
     cosine = math.sqrt(1.0 - sine**2)
     items = [item for item in one.check.items if item.item.startswith("tie")]
-    for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
+    for tie, item in zip(ties_of(one.wall), items, strict=False):
         arm, height = item.depth - sums.hinge, item.lever
         travel = height * sine + arm * (1.0 - cosine)
         strain, preload, modulus = (of_tie(tie, name) for name in ("strain", "preload", "modulus"))
@@ -302,7 +302,7 @@ def _fractures(one: Subject) -> list[_Fracture]:
     hinge = turning_of(one.check.items).hinge
     items = [item for item in one.check.items if item.item.startswith("tie")]
     found = []
-    for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
+    for tie, item in zip(ties_of(one.wall), items, strict=False):
         strain, preload, modulus, strength = (
             of_tie(tie, name) for name in ("strain", "preload", "modulus", "strength")
         )

@@ -7,7 +7,8 @@ the numbers of the check.
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev
@@ -20,12 +21,18 @@ from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import number
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.sums import of_tie
 from dondolo.reporting.units import UNITS, Unit, cell
-from dondolo.walls.chains import Chain
+from dondolo.walls.chain_parts import Point
+from dondolo.walls.chains import Chain, ChainMotion
+from dondolo.walls.drawing_chain import ends_of_ties
+from dondolo.walls.ties import ties_of
 from dondolo.walls.wall import upload
 
 # Rotations at which a chain is looked at, less one, and the degree of the polynomials through them
 _NODES, _DEGREE = 48, 32
+# How near forces and elongations are that are the same
+_SAME = 1e-9
 # Share of the capacity at which a chain is drawn
 _DRAWN = 0.7
 _DARK, _MIDDLE, _PALE, _STILL = "#000000", "#6e6e6e", "#e2e2e2", "#c4c4c4"
@@ -64,22 +71,78 @@ def terms_of_chain(one: Subject) -> tuple[FloatArray, dict[str, FloatArray]]:
             x = at.x[:, int(count) - 1]
         else:
             row = actions[item.item]
-            body = int(row[0]) - 1
-            across, up = -row[1] - at.x[0, body], row[2] - at.y[0, body]
-            x = at.x[:, body] + across * np.cos(at.turn[:, body]) + up * np.sin(at.turn[:, body])
+            x = _places(at, int(row[0]), (-row[1], row[2]))[:, 0]
         weights.append(item.force)
         first.append(item.force * item.lever)
         places.append(x - x[0])
     # Towards the side whose terms are used
     side = np.sign(np.dot(first, [place[-1] for place in places]))
     moved = Chebyshev.fit(rotation, side * np.dot(weights, places), _DEGREE, domain=[0.0, rotation[-1]])
-    terms = wall.terms(rotation)
+    # Ties are added where they hold.
+    terms = replace(wall, tie_table=None).terms(rotation)
     columns = {
         "M": np.asarray(terms.restoring_moment - terms.load_force),
         "S": moved.deriv()(rotation),
         "d": side * np.dot(first, places) / np.sum(first),
     }
     return rotation, columns
+
+
+class TieOfChain(NamedTuple):
+    """A tie of a chain over the rotation.
+
+    Attributes
+    ----------
+    force : float
+        Its largest force [N].
+    travel : Chebyshev
+        How much longer it gets [m].
+    fracture : float
+        The same where it breaks [m].
+    """
+
+    force: float
+    travel: Chebyshev
+    fracture: float
+
+    def moment(self, rotation: float) -> float:
+        """What it adds to the moment that holds a chain which is pushed out for the first time [N m]."""
+        if self.travel(rotation) > self.fracture * (1.0 + _SAME):
+            return 0.0
+        return float(self.force * self.travel.deriv()(rotation))
+
+
+def ties_over(one: Subject, rotation: FloatArray) -> list[TieOfChain]:
+    """The ties of a chain, by the places of their ends at some rotations."""
+    wall = one.wall
+    assert isinstance(wall, Chain)
+    at = wall.motion(rotation)
+    items = [item for item in one.check.items if item.item.startswith("tie")]
+    found = []
+    for row, bar, item in zip(wall._rows("tie_table"), ties_of(wall), items, strict=True):
+        near = _places(at, int(row[0]), (-row[2], row[3]))
+        if row[1] > 0.0:
+            length = np.linalg.norm(near - _places(at, int(row[1]), (-row[5], row[6])), axis=1)
+            travel = length - length[0]
+        else:
+            angle = np.radians(row[4])
+            travel = (near - near[0]) @ [np.cos(angle), np.sin(angle)]
+        strain, preload, modulus, strength = (
+            of_tie(bar, name) for name in ("strain", "preload", "modulus", "strength")
+        )
+        is_brittle = item.force < (1.0 - _SAME) * strength * bar.section
+        stretched = item.force / bar.section / modulus if is_brittle else strain
+        curve = Chebyshev.fit(rotation, travel, _DEGREE, domain=[0.0, rotation[-1]])
+        found.append(TieOfChain(item.force, curve, (stretched - preload / modulus) * bar.length))
+    return found
+
+
+def _places(at: ChainMotion, body: int, point: Point) -> FloatArray:
+    """Places of a point of a body at some rotations, of which the first is at rest."""
+    k = body - 1
+    across, up = point[0] - at.x[0, k], point[1] - at.y[0, k]
+    c, s = np.cos(at.turn[:, k]), np.sin(at.turn[:, k])
+    return np.column_stack([at.x[:, k] + across * c + up * s, at.y[:, k] + up * c - across * s])
 
 
 def scheme(document: Document, one: Subject, name: str) -> list[Block]:
@@ -234,6 +297,8 @@ def draw_chain(document: Document, one: Subject) -> Any:
         for body, is_opening, corners in wall.outlines(rotation=q):
             look = "white" if is_opening else _STILL if body == 0 else _PALE
             ax.add_patch(Polygon(corners, facecolor=look, edgecolor=_DARK, linewidth=0.9))
+        for ends in ends_of_ties(wall, q):
+            ax.plot(*ends.T, color=_DARK, linewidth=1.2, linestyle=(0, (6, 2, 1, 2)), zorder=4)
         for row in wall._rows("joint_table"):
             body, at = (int(row[1]), (-row[3], row[4])) if row[1] > 0.0 else (int(row[2]), (-row[6], row[7]))
             x, y = wall._moved([at], body, q)[0]
@@ -246,6 +311,8 @@ def draw_chain(document: Document, one: Subject) -> Any:
         ring = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": _DARK, "linewidth": 0.7}
         rest.annotate(str(count), (x, y), ha="center", va="center", fontsize=_WORDS, bbox=ring)
     _arrows(document, rest, wall)
+    for count, (end, _other) in enumerate(ends_of_ties(wall, 0.0), 1):
+        rest.annotate(f"T{count}", end, (4, 4), textcoords="offset points", fontsize=_WORDS)
     low, high = _limits(wall, rotation)
     for ax in (rest, moved):
         ax.set_xlim(low[0], high[0])
@@ -260,6 +327,7 @@ def _limits(wall: Chain, rotation: float) -> tuple[FloatArray, FloatArray]:
     points = [corners for q in (0.0, rotation) for _body, _is_opening, corners in wall.outlines(rotation=q)]
     points += [np.array([(-row[3], row[4])]) for row in wall._rows("joint_table")]
     points += [np.array([(-row[1], row[2])]) for row in wall._rows("action_table")]
+    points += ends_of_ties(wall, 0.0)
     at = wall.motion(0.0)
     found = np.vstack([*points, np.column_stack([at.x, at.y])])
     low, high = found.min(axis=0), found.max(axis=0)

@@ -35,7 +35,7 @@ from dondolo.reporting.relazione.tabulated import table_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
-from dondolo.walls.parts import parts_of
+from dondolo.walls.ties import ties_of
 
 # Displacements of the sheet, which are small
 _LENGTHS = (
@@ -305,8 +305,7 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
     found = ratios_of(one, check.ultimate_state, taken_of(one, check.ultimate_state))
     items = [item for item in check.items if item.item.startswith("tie")]
     late = any(
-        of_tie(tie, "preload") * tie.section < item.force
-        for tie, item in zip(parts_of(wall, "ties"), items, strict=False)
+        of_tie(tie, "preload") * tie.section < item.force for tie, item in zip(ties_of(wall), items, strict=False)
     )
     counted = {item.item for item in items} - ties_left_out(one, without_of(one, check.ultimate_state))
     if found.is_of_activation and late and counted:

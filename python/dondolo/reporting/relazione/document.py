@@ -109,11 +109,15 @@ class Document:
             words, ground, floor = _DEMANDS[row.quantity]
             is_on_floor = any(one.is_on_floor for one in self.subjects.several)
             return (f"{self.text(words)} ", symbol_of(floor if is_on_floor else ground), f" ({where})")
+        # Forces of whole bodies have the names of those per metre.
+        is_whole = row.quantity.endswith("_per_m") and not row.unit.endswith("/m")
         if self.language.code == "en":
             # What the numbers of a verdict mean is of no use where there are words.
             words = row.meaning.partition(";")[0].removeprefix("1: ").removeprefix("0: ")
+            words = words.removesuffix(" per metre of wall").removesuffix(",") if is_whole else words
             return self.text(_("outcome")) if row.quantity == "verified" else words.partition(", 0: ")[0]
-        return self.language.named("quantity of a check", row.quantity).partition(":")[0]
+        words = self.language.named("quantity of a check", row.quantity).partition(":")[0]
+        return words.removesuffix(self.text(_(", per metre"))) if is_whole else words
 
     @property
     def _where(self) -> str:

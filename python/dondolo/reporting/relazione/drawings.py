@@ -20,10 +20,11 @@ from dondolo.reporting.relazione.floors import building_in
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import is_held, reactions_of, taken_of, ties_left_out, without_of
 from dondolo.reporting.relazione.tabulated import Terms
+from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import shape, width_of
-from dondolo.walls.wall import MasonryWall, upload
+from dondolo.walls.wall import MasonryWall, Wall, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -259,9 +260,13 @@ def _is_demand_of(one: Subject, state: LimitState, period: float, building: Buil
     return math.isclose(spectrum.sa[0], one.check.value(taken_of(one, state), state, "spectral_demand"), rel_tol=1e-9)
 
 
-def _without(one: Subject, name: str) -> MasonryWall:
+def _without(one: Subject, name: str) -> Wall:
     """The wall of a curve that does not count some ties."""
     left_out = ties_left_out(one, name)
+    if isinstance(one.wall, Chain):
+        rows = one.wall._rows("tie_table")
+        kept = [row for place, row in enumerate(rows.tolist(), 1) if f"tie {place}" not in left_out]
+        return replace(one.wall, tie_table=[number for row in kept for number in row] or None)
     ties = [tie for place, tie in enumerate(parts_of(one.wall, "ties")) if f"tie {place + 1}" not in left_out]
     assert isinstance(one.wall, MasonryWall)
     has_plates = any(tie.plate_width is not None or tie.plate_diameter is not None for tie in ties)

@@ -17,7 +17,7 @@ from dondolo.reporting.relazione.sums import of_tie, sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import Corner
-from dondolo.walls.parts import parts_of
+from dondolo.walls.ties import ties_of
 from dondolo.walls.wall import MasonryWall
 
 # Partial factor of the masonry in seismic checks (Circolare, C8.7.1), of the strengths at plates
@@ -163,7 +163,7 @@ def _of_plates(one: Subject, field: str) -> tuple[float, bool]:
 def _steel(document: Document) -> list[_Row]:
     """Of the ties, if there are any: a number for those that are alike."""
     several = document.subjects.several
-    if not any(parts_of(one.wall, "ties") for one in several):
+    if not any(ties_of(one.wall) for one in several):
         return []
     fields = (
         (
@@ -179,7 +179,7 @@ def _steel(document: Document) -> list[_Row]:
     for field, head, unit in fields:
         cells: list[Piece] = []
         for one in several:
-            ties = parts_of(one.wall, "ties")
+            ties = ties_of(one.wall)
             values = list(dict.fromkeys(of_tie(tie, field) for tie in ties))
             shown = tuple(piece for value in values for piece in ("; ", cell(value, UNITS[unit])))[1:]
             is_default = all(getattr(tie, field) is None for tie in ties)

@@ -28,6 +28,7 @@ from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
 from dondolo.walls.chains import Chain
 from dondolo.walls.mechanisms import Corner, OneSidedWall, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
+from dondolo.walls.ties import ties_of
 
 _STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
 
@@ -352,7 +353,7 @@ def modelling(document: Document) -> list[Block]:
     if any(isinstance(wall, (Corner, OneSidedWall)) for wall in walls):
         blocks.append(document.say(_("The calculation assumes that the wall does not turn inwards.")))
         blocks += document.written("inward_rotation", _("why the wall does not turn inwards"))
-    if any(parts_of(wall, "ties") for wall in walls):
+    if any(ties_of(wall) for wall in walls):
         words = _(
             "Ties act with the least of the yield force of the bar and the strength of the anchor, if that is known,"
             " until they break; they do not act up to collapse. The limit analysis of {alpha} counts this force {force}"
@@ -418,7 +419,7 @@ def _travels(document: Document) -> tuple[Any, ...]:
     pieces: list[Any] = []
     for name, one in document.each():
         items = [item for item in one.check.items if item.item.startswith("tie")]
-        for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
+        for tie, item in zip(ties_of(one.wall), items, strict=False):
             stress = item.force / tie.section - of_tie(tie, "preload")
             which = ", ".join([name] * (len(document.names) > 1) + [document.item(item.item)])
             travel = quantity(stress * tie.length / of_tie(tie, "modulus"), CENTIMETRES)

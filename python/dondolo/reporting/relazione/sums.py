@@ -12,7 +12,7 @@ from dondolo._fortran.walls import WALL_ABSENT
 from dondolo.checks.ntc import CodeCheck
 from dondolo.checks.side_by_side import ties_not_counted
 from dondolo.reporting.relazione.subjects import Subject
-from dondolo.walls.parts import Tie, parts_of
+from dondolo.walls.ties import Bar, ties_of
 
 
 def sums_of(items: Sequence[CalculationItem]) -> dict[str, float]:
@@ -35,7 +35,7 @@ def is_held(item: CalculationItem) -> bool:
     return item.item.startswith(("tie", "friction"))
 
 
-def of_tie(tie: Tie, name: str) -> float:
+def of_tie(tie: Bar, name: str) -> float:
     """A property of a tie, or the default that the calculation takes for it."""
     given = getattr(tie, name)
     return float(WALL_ABSENT[f"tie_{name}"] if given is None else given)
@@ -60,7 +60,7 @@ class Reactions(NamedTuple):
 def reactions_of(one: Subject) -> Reactions:
     """Forces that a wall which turns about its base transmits to it."""
     sums = sums_of(one.check.items)
-    preload = math.fsum(of_tie(tie, "preload") * tie.section for tie in parts_of(one.wall, "ties"))
+    preload = math.fsum(of_tie(tie, "preload") * tie.section for tie in ties_of(one.wall))
     activated = sums["thrust"] + sums["alpha_0"] * sums["weight"] - sums["held"]
     return Reactions(sums["carried"], sums["thrust"] - preload, activated)
 
@@ -125,7 +125,7 @@ def ties_left_out(one: Subject, name: str) -> frozenset[str]:
     found = re.findall(r"\d+", name)
     if "(" not in name:
         return frozenset(f"tie {place}" for place in found)
-    ties = parts_of(one.wall, "ties")
+    ties = ties_of(one.wall)
     order = sorted(range(len(ties)), key=lambda place: of_tie(ties[place], "strain") * ties[place].length)
     return frozenset(f"tie {place + 1}" for place in order[: int(found[0])])
 

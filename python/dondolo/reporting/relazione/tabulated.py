@@ -17,7 +17,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
 from dondolo.reporting.content import Piece, Symbol, Table
 from dondolo.reporting.numerals import Numeral
-from dondolo.reporting.relazione.chains import terms_of_chain
+from dondolo.reporting.relazione.chains import TieOfChain, terms_of_chain, ties_over
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.formulas import FIGURES
 from dondolo.reporting.relazione.subjects import Subject
@@ -39,6 +39,7 @@ class Terms:
     def __init__(self, one: Subject) -> None:
         wall = one.wall
         self.columns: dict[str, FloatArray]
+        self.ties: list[TieOfChain] = []
         if isinstance(wall, TabulatedWall):
             self.rotation = np.asarray(wall.rotation, float)
             lever = wall.weighted_lever
@@ -49,12 +50,17 @@ class Terms:
             }
         else:
             self.rotation, self.columns = terms_of_chain(one)
+            self.ties = ties_over(one, self.rotation)
         self._curves = {name: _curve(self.rotation, values) for name, values in self.columns.items()}
         self.capacity = wall.capacity_angle
 
     def at(self, name: str, rotation: float) -> float:
-        """A term at a rotation."""
+        """A term at a rotation, without ties."""
         return float(self._curves[name](rotation))
+
+    def moment_at(self, rotation: float) -> float:
+        """The moment with what ties add to it that have not broken."""
+        return self.at("M", rotation) + sum(tie.moment(rotation) for tie in self.ties)
 
     def rotation_of(self, d: float) -> float:
         """The rotation at which the displacement is d."""
@@ -99,7 +105,9 @@ def _places(one: Subject, terms: Terms) -> list[_Place]:
     found = []
     for name, d, expected in names:
         rotation = terms.rotation_of(d)
-        moment, lever = terms.at("M", rotation), terms.at("S", rotation)
+        # At the end of the capacity only weights count.
+        moment = terms.moment_at(rotation) if expected > 0.0 else terms.at("M", rotation)
+        lever = terms.at("S", rotation)
         multiplier = moment / lever
         if not math.isclose(multiplier, expected, rel_tol=_SAME, abs_tol=near):
             return []

@@ -13,55 +13,34 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_anchor
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import UNITS, cell
-from dondolo.walls.parts import parts_of
+from dondolo.walls.ties import given_ties
 
 
 def ties(document: Document) -> list[Block]:
     """Chapter 12."""
     blocks: list[Block] = [Heading(document.text(_("Ties and their anchors")))]
-    rows = [
-        (name, number_of, tie, item)
-        for name, one in document.each()
-        for number_of, (tie, item) in enumerate(
-            zip(parts_of(one.wall, "ties"), [x for x in one.check.items if x.item.startswith("tie")], strict=False), 1
-        )
-    ]
-    if not rows:
-        return [*blocks, document.say(_("The walls have no ties."))]
-    anchored = [
-        next(
-            (row.value for row in one.check.rows if (row.item, row.quantity) == (f"tie {count}", "anchor_force_per_m")),
-            None,
-        )
-        for _name, one in document.each()
-        for count in range(1, len(parts_of(one.wall, "ties")) + 1)
-    ]
-    columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("wall")): [name for name, *_rest in rows],
-        document.text(_("tie")): [whole(count) for _name, count, *_rest in rows],
-        document.text(_("height [m]")): [number(tie.height) for _name, _count, tie, _item in rows],
-        document.text(_("area [cm²/m]")): [cell(tie.section, UNITS["m2/m"]) for _name, _count, tie, _item in rows],
-        document.text(_("length [m]")): [number(tie.length) for _name, _count, tie, _item in rows],
-        document.text(_("strength [MPa]")): [cell(tie.strength, UNITS["Pa"]) for _name, _count, tie, _item in rows],
-        document.text(_("force that holds [kN/m]")): [cell(item.force, UNITS["N/m"], 5) for *_rest, item in rows],
-        document.text(_("strength of the anchor [kN/m]")): [
-            cell(force, UNITS["N/m"], 5) if force is not None else document.text(_("not checked")) for force in anchored
-        ],
-    }
-    blocks.append(CaptionedTable(Table.of(columns), document.text(_("Ties, per metre of wall."))))
-    for name, one in document.each():
-        if (table := _anchors(document, name, one.check)) is not None:
+    anchored: list[float | None] = []
+    for is_whole in (False, True):
+        several = [(name, one) for name, one in document.each() if one.is_whole == is_whole]
+        if any(given_ties(one.wall) for _name, one in several):
+            table, forces = _bars(document, several, is_whole=is_whole)
             blocks.append(table)
+            anchored += forces
+    if not anchored:
+        return [*blocks, document.say(_("The walls have no ties."))]
+    for name, one in document.each():
+        if (anchors := _anchors(document, name, one.check)) is not None:
+            blocks.append(anchors)
         blocks += _pictures(document, name, one)
     for quantity, words in _OPEN_TIES.items():
-        several = [
+        loose = [
             f"{name}, {document.item(item)}" if len(document.names) > 1 else document.item(item)
             for name, one in document.each()
             for item, found in open_ties_of(one.check).items()
             if quantity in found
         ]
-        if several:
-            blocks.append(Note("doubt", document.say(words, ties="; ".join(several)).pieces))
+        if loose:
+            blocks.append(Note("doubt", document.say(words, ties="; ".join(loose)).pieces))
     blocks.append(
         document.say(
             _(
@@ -80,6 +59,46 @@ def ties(document: Document) -> list[Block]:
     else:
         prompt = _("what the strengths of the anchors above leave open: other end of the ties, threads and welds")
     return blocks + document.written("anchors", prompt)
+
+
+def _bars(
+    document: Document, several: Sequence[tuple[str, Subject]], *, is_whole: bool
+) -> tuple[CaptionedTable, list[float | None]]:
+    """Table of the bars of walls, all per metre or all whole, and the strengths of their anchors, None: not known."""
+    rows = [
+        (name, count, tie, item)
+        for name, one in several
+        for count, (tie, item) in enumerate(
+            zip(given_ties(one.wall), [x for x in one.check.items if x.item.startswith("tie")], strict=False), 1
+        )
+    ]
+    anchored = [
+        next(
+            (row.value for row in one.check.rows if (row.item, row.quantity) == (f"tie {count}", "anchor_force_per_m")),
+            None,
+        )
+        for _name, one in several
+        for count in range(1, len(given_ties(one.wall)) + 1)
+    ]
+    heads = (
+        (_("area [cm²]"), _("force that holds [kN]"), _("strength of the anchor [kN]")) if is_whole
+        else (_("area [cm²/m]"), _("force that holds [kN/m]"), _("strength of the anchor [kN/m]"))
+    )  # fmt: skip
+    area, force = UNITS["m2/m"], UNITS["N/m"]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("wall")): [name for name, *_rest in rows],
+        document.text(_("tie")): [whole(count) for _name, count, *_rest in rows],
+        document.text(_("height [m]")): [number(tie.height) for _name, _count, tie, _item in rows],
+        document.text(heads[0]): [cell(tie.section, area) for _name, _count, tie, _item in rows],
+        document.text(_("length [m]")): [number(tie.length) for _name, _count, tie, _item in rows],
+        document.text(_("strength [MPa]")): [cell(tie.strength, UNITS["Pa"]) for _name, _count, tie, _item in rows],
+        document.text(heads[1]): [cell(item.force, force, 5) for *_rest, item in rows],
+        document.text(heads[2]): [
+            cell(one, force, 5) if one is not None else document.text(_("not checked")) for one in anchored
+        ],
+    }
+    words = _("Ties of whole bodies.") if is_whole else _("Ties, per metre of wall.")
+    return CaptionedTable(Table.of(columns), document.text(words)), anchored
 
 
 def open_ties_of(check: CodeCheck) -> dict[str, tuple[str, ...]]:

@@ -212,7 +212,10 @@ contains
                stiffness(3:4) = turned(-e*f, 0.5_wp*(f**2 - e**2), 2.0_wp*w)
                force = -force/(inertia*w)
                stiffness = -stiffness/(inertia*w)
-               form%is_harmonic = form%is_harmonic .and. is_one(lever(edge, e, f, w*(1.0_wp + z)), force) &
+               ! Those along a mechanism have no place.
+               form%is_harmonic = form%is_harmonic .and. .not. wall%restraints(i)%along%exists()
+               if (.not. form%is_harmonic) exit
+               form%is_harmonic = is_one(lever(edge, e, f, w*(1.0_wp + z)), force) &
                   & .and. is_one(lever(edge, e, f, w*(1.0_wp + z))*travel(edge, e, f, w*(1.0_wp + z)), stiffness)
             end associate
          end do

@@ -4,22 +4,27 @@
 !>
 !>     F(y) = 0, phi_driver = +-q        A y' = e        A y'' = -(dA/dq) y'
 !>
-!> with the same matrix A = dF/dy, and e = 1 in the row of the driver. The positions come from Newton's method, which begins at
-!> those of a rotation nearby; the rates are then exact.
+!> with the same matrix A = dF/dy, and e = 1 in the row of the driver. The positions come from Newton's method, which begins where
+!> the rates of a rotation nearby lead; those of this one are then exact.
 module dondolo_wall_chain
    use dondolo_base_kinds, only : wp
    use dondolo_wall_chain_equations, only : factor_type, factorise
    use dondolo_wall_chain_part, only : chain_mass_type
+   use dondolo_wall_restraint, only : tie_input_type
    implicit none
    private
 
-   public :: chain_action_type, chain_joint_type, chain_type, guide, motion_type, pin, point_motion
+   public :: chain_action_type, chain_joint_type, chain_tie_type, chain_type, guide, motion_type, pin, point_motion
 
    !> Equations of a pin and of a guide
    integer, parameter, public :: is_pin = 2, is_guide = 1
 
-   !> Most steps of Newton's method; it converges in four to six
+   !> Most steps of Newton's method; it converges in two to four
    integer, parameter :: most_steps = 30
+
+   !> Step of it after which the next is below rounding, since it is of the order of the square, and what that may be / size of the
+   !> positions
+   real(wp), parameter :: small_step = 0.1_wp*sqrt(epsilon(1.0_wp)), smallest_step = 4.0_wp*epsilon(1.0_wp)
 
    !> A joint between two bodies, or of one with the ground
    type :: chain_joint_type
@@ -46,12 +51,26 @@ module dondolo_wall_chain
       logical :: is_held = .false.
    end type chain_action_type
 
+   !> A tie between a body and the ground, or between two bodies
+   type :: chain_tie_type
+      !> The bodies; 0: the ground
+      integer :: body = 0, other = 0
+      !> Its anchors on them at rest [m]; of one on the ground none is known
+      real(wp) :: at(2) = 0.0_wp, other_at(2) = 0.0_wp
+      !> Of a tie to the ground: in which direction it gets longer, which it keeps
+      real(wp) :: direction(2) = 0.0_wp
+      !> Bar and strength of its anchors; depth and height do not count
+      type(tie_input_type) :: given
+   end type chain_tie_type
+
    !> A chain
    type :: chain_type
       !> Its bodies at rest, its joints and what acts on it
       type(chain_mass_type), allocatable :: bodies(:)
       type(chain_joint_type), allocatable :: joints(:)
       type(chain_action_type), allocatable :: actions(:)
+      !> Its ties, which no motion of the kernel knows
+      type(chain_tie_type), allocatable :: ties(:)
       !> The body whose turn is q, and its sense: 1 towards +x, -1 towards -x
       integer :: driver = 1
       real(wp) :: sense = 1.0_wp
@@ -142,10 +161,15 @@ contains
 
       type(factor_type) :: factor
       real(wp), allocatable :: left(:), a(:, :)
-      real(wp) :: change, before
+      real(wp) :: change, before, large
       integer :: i, n
 
       n = 3*size(self%bodies)
+      if (allocated(motion%rate)) then
+         associate (ahead => q - motion%q)
+            motion%y = motion%y + ahead*(motion%rate + 0.5_wp*ahead*motion%bend)
+         end associate
+      end if
       motion%q = q
       is_there = .false.
       before = huge(1.0_wp)
@@ -157,15 +181,12 @@ contains
             motion%y = motion%y - step
             change = maxval(abs(step))
          end associate
-         ! Below the rounding of positions steps no longer shrink.
-         if (change <= 4.0_wp*epsilon(1.0_wp)*max(1.0_wp, maxval(abs(motion%y)))) exit
-         if (change < 1.0e4_wp*epsilon(1.0_wp)*max(1.0_wp, maxval(abs(motion%y))) .and. change >= 0.5_wp*before) exit
+         large = max(1.0_wp, maxval(abs(motion%y)))
+         ! The last step changes no derivative. Where equations are ill-conditioned steps end above rounding, and no longer shrink.
+         if (before <= small_step*large .and. (change <= smallest_step*large .or. change >= 0.5_wp*before)) exit
          before = change
       end do
       if (i > most_steps) return
-      call set_equations(self, q, motion%y, left, a)
-      call factorise(factor, a)
-      if (factor%rank < n) return
       motion%sign = factor%sign
       left = 0.0_wp
       left(n) = 1.0_wp

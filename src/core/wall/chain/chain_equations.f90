@@ -43,14 +43,18 @@ contains
       largest = 0.0_wp
       associate (a => factor%lu)
          do k = 1, n
-            at = maxloc(abs(a(k:, k:))) + k - 1
+            at = largest_place(a, k)
             if (at(1) /= k) then
-               a([k, at(1)], :) = a([at(1), k], :)
+               do i = 1, n
+                  call swap(a(k, i), a(at(1), i))
+               end do
                factor%row([k, at(1)]) = factor%row([at(1), k])
                factor%sign = -factor%sign
             end if
             if (at(2) /= k) then
-               a(:, [k, at(2)]) = a(:, [at(2), k])
+               do i = 1, n
+                  call swap(a(i, k), a(i, at(2)))
+               end do
                factor%column([k, at(2)]) = factor%column([at(2), k])
                factor%sign = -factor%sign
             end if
@@ -65,6 +69,38 @@ contains
          end do
       end associate
    end subroutine factorise
+
+   !> Row and column of the largest element of what is left of a matrix
+   pure function largest_place(a, first) result(at)
+      real(wp), intent(in) :: a(:, :)
+      !> First row and column that are left
+      integer, intent(in) :: first
+      integer :: at(2)
+
+      real(wp) :: most
+      integer :: i, k
+
+      at = first
+      most = -1.0_wp
+      do k = first, size(a, 2)
+         do i = first, size(a, 1)
+            if (.not. abs(a(i, k)) > most) cycle
+            most = abs(a(i, k))
+            at = [i, k]
+         end do
+      end do
+   end function largest_place
+
+   !> Swap two numbers
+   elemental subroutine swap(one, two)
+      real(wp), intent(inout) :: one, two
+
+      real(wp) :: kept
+
+      kept = one
+      one = two
+      two = kept
+   end subroutine swap
 
    !> Solve the equations of a matrix of full rank
    pure function solve(self, right) result(x)

@@ -10,6 +10,7 @@ module dondolo_wall_chain_input
    use dondolo_wall_chain_masonry, only : find_nearest, masonry_type
    use dondolo_wall_chain_overlap, only : outline_type
    use dondolo_wall_chain_part, only : chain_mass_type, point_mass, polygon, sector, together
+   use dondolo_wall_chain_ties, only : read_chain_ties, tie_numbers
    implicit none
    private
 
@@ -63,6 +64,7 @@ contains
       call check_size('body_table', body_numbers)
       call check_size('joint_table', joint_numbers)
       call check_size('action_table', action_numbers)
+      call check_size('tie_table', tie_numbers)
       if (problems%count > 0) return
       call read_bodies(chain, masonry, as_rows('body_table', body_numbers), problems)
       if (problems%count > 0) return
@@ -70,6 +72,7 @@ contains
          & to_text(size(chain%bodies))//' bodies', out_of_range, 'driver')
       call read_joints(chain, as_rows('joint_table', joint_numbers), problems)
       call read_actions(chain, masonry, as_rows('action_table', action_numbers), problems)
+      call read_chain_ties(chain, input%list('tie_table'), problems)
       if (problems%count > 0) return
       call check_places(chain, masonry, as_rows('body_table', body_numbers), max(least_gap, height_gap*input%number('height')), &
          & problems)
@@ -338,6 +341,12 @@ contains
       end do
       do i = 1, size(chain%actions)
          call check_place('actions: the action', chain%actions(i)%body, chain%actions(i)%at, corbel, 'actions')
+      end do
+      do i = 1, size(chain%ties)
+         associate (tie => chain%ties(i))
+            call check_place('ties: tie '//to_text(i), tie%body, tie%at, corbel, 'ties')
+            if (tie%other > 0) call check_place('ties: tie '//to_text(i), tie%other, tie%other_at, corbel, 'ties')
+         end associate
       end do
       do i = 1, size(masonry%standing)
          call check_place('actions: the action', 0, masonry%standing(i)%at, corbel, 'actions')

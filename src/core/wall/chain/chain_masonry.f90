@@ -295,19 +295,31 @@ contains
       type(contact_type), allocatable, intent(inout) :: contacts(:)
       type(outline_type), intent(in) :: outlines(:)
 
+      type(edge_type), allocatable :: edges(:)
       type(edge_type) :: one, two
       real(wp) :: along(2), places(4), first, last
-      integer :: i, k, m, n
+      integer :: before(size(outlines) + 1), i, k, m, n
 
+      ! Numbers of the edges before those of each outline
+      before(1) = 0
+      do i = 1, size(outlines)
+         before(i + 1) = before(i) + size(outlines(i)%corners, 2)
+      end do
+      allocate (edges(before(size(outlines) + 1)))
+      do i = 1, size(outlines)
+         do m = before(i) + 1, before(i + 1)
+            edges(m) = edge_of(outlines(i), m - before(i))
+         end do
+      end do
       do i = 1, size(outlines)
          do k = i + 1, size(outlines)
             if (outlines(i)%part == outlines(k)%part) cycle
-            do m = 1, size(outlines(i)%corners, 2)
-               one = edge_of(outlines(i), m)
+            do m = before(i) + 1, before(i + 1)
+               one = edges(m)
                along = one%ends(:, 2) - one%ends(:, 1)
                along = along/norm2(along)
-               do n = 1, size(outlines(k)%corners, 2)
-                  two = edge_of(outlines(k), n)
+               do n = before(k) + 1, before(k + 1)
+                  two = edges(n)
                   if (max(abs(dot_product(one%normal, two%ends(:, 1) - one%ends(:, 1))), &
                      & abs(dot_product(one%normal, two%ends(:, 2) - one%ends(:, 1)))) > near) cycle
                   if (dot_product(one%normal, two%normal) > 0.0_wp) cycle

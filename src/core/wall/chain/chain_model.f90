@@ -8,6 +8,7 @@ module dondolo_wall_chain_model
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_building_input, only : spans
+   use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_chain, only : chain_type, motion_type
    use dondolo_wall_chain_check, only : chain_weights
    use dondolo_wall_chain_input, only : read_chain, stands_between
@@ -17,6 +18,7 @@ module dondolo_wall_chain_model
    use dondolo_wall_chain_state, only : check_chain, deepest_overlap_type, find_overlap
    use dondolo_wall_chain_table, only : chain_table_type, sample_chain
    use dondolo_wall_chain_terms, only : chain_support, chain_terms_type, find_end, set_at_rest, terms_at
+   use dondolo_wall_chain_ties, only : anchors_of, tie_chain
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_restitution, only : impact_models_type
    use dondolo_wall_tabulated, only : new_tabulated, tabulated_type
@@ -41,6 +43,9 @@ module dondolo_wall_chain_model
       &   example='data/walls/portal_actions.csv', &
       &   meaning='CSV file of loads, pushed masses and thrusts at points of the bodies', &
       &   more='columns body, depth [m], height [m], load [N], inertia'), &
+      & property_type('ties', is_text, owners=chain, optional=.true., replaced=.true., example='data/walls/portal_ties.csv', &
+      &   meaning='CSV file of ties, which hold its bodies outwards', &
+      &   more='columns body, depth [m], height [m], area [m2], length [m]'), &
       & property_type('driver', is_integer, owners=chain, optional=.true., smallest=1.0_wp, largest=8.0_wp, absent=1.0_wp, &
       &   example='1', meaning='number of the body whose turn is the rotation q', more='1 if not given'), &
       & property_type('gravity_share', owners=chain, optional=.true., smallest=0.0_wp, largest=1.0_wp, absent=1.0_wp, &
@@ -51,13 +56,17 @@ module dondolo_wall_chain_model
       & property_type('joint_table', is_list, owners=chain, optional=.true., smallest=-1.0e9_wp, largest=1.0e9_wp, &
       &   example='2.0, 1.0, 0.0', meaning='rows of the joints as numbers, 8 a row, instead of their file'), &
       & property_type('action_table', is_list, owners=chain, optional=.true., smallest=-1.0e9_wp, largest=1.0e9_wp, &
-      &   example='1.0, 0.2, 3.5', meaning='rows of the actions as numbers, 10 a row, instead of their file')]
+      &   example='1.0, 0.2, 3.5', meaning='rows of the actions as numbers, 10 a row, instead of their file'), &
+      & property_type('tie_table', is_list, owners=chain, optional=.true., smallest=-1.0e9_wp, largest=1.0e12_wp, &
+      &   example='1.0, 0.0, 0.0', meaning='rows of the ties as numbers, 14 a row, instead of their file')]
 
    !> A wall that is a chain
    type, extends(tabulated_model_type) :: chain_model_type
       type(chain_type) :: chain
       !> Its masonry, with what stands still
       type(masonry_type) :: masonry
+      !> Anchors of its ties; forces are those of a whole tie
+      type(anchor_type), allocatable :: anchors(:)
       !> alpha_0 outwards and inwards; huge: it moves to one side, or inwards as its mirror image
       real(wp) :: multiplier(2) = huge(1.0_wp)
       !> Are its terms those of the motion inwards, so that the chain and its outlines are seen from behind?
@@ -121,6 +130,11 @@ contains
       if (input%has('driver')) self%chain%driver = nint(input%number('driver'))
       if (input%has('gravity_share')) self%chain%gravity_share = input%number('gravity_share')
       call read_chain(self%chain, self%masonry, input, problems)
+      if (problems%count > 0) return
+      self%anchors = anchors_of(self%chain)
+      if (any(self%chain%ties%other > 0) .and. input%number('sides') > 1.0_wp) call problems%note('ties: tie '// &
+         & to_text(findloc(self%chain%ties%other > 0, .true., dim=1))//' between two bodies would act to both sides, and ties '// &
+         & 'are followed outwards alone; give sides = 1', out_of_range, 'ties')
    end subroutine read
 
    !> Make the mechanism
@@ -139,6 +153,7 @@ contains
 
       type(tabulated_type), allocatable :: made
       type(chain_table_type) :: table
+      type(chain_type) :: outward
       real(wp) :: capacity, end
       logical :: is_known, is_smooth
 
@@ -146,6 +161,7 @@ contains
       impacts = impact_models_type()
       call check_chain(self%chain, self%masonry%outlines, error)
       if (.not. allocated(error)) call find_capacity(self%chain, capacity, end, error)
+      outward = self%chain
       if (.not. allocated(error)) call look_inward(self, input%number('sides') > 1.0_wp, capacity, end, is_known, error)
       if (allocated(error)) return
       ! Where other joints may open that are not known, no bound is.
@@ -169,6 +185,9 @@ contains
       call new_tabulated(made, self%table, gravity, input%number('sides') > 1.0_wp, self%misfit, error)
       if (allocated(error)) return
       if (self%contact == spans) call chain_support(self%chain, made%share, made%tilt)
+      ! Ties hold the motion outwards, whichever side the terms are of.
+      if (size(outward%ties) > 0) call tie_chain(outward, self%table%rotation, made, error)
+      if (allocated(error)) return
       call move_alloc(made, mechanism)
    end subroutine make_mechanism
 
@@ -280,6 +299,12 @@ contains
             call lines%add('action '//to_text(i)//': '//rounded(action%weight)//' N, thrust '//rounded(norm2(action%thrust))// &
                & ' N at depth '//rounded(0.0_wp - side*action%at(1))//' m, height '//rounded(action%at(2))//' m; pushed '// &
                & rounded(action%pushed)//' kg, lifted '//rounded(action%lifted)//' kg')
+         end associate
+      end do
+      do i = 1, size(self%chain%ties)
+         associate (tie => self%chain%ties(i), given => self%chain%ties(i)%given)
+            call lines%add('tie '//to_text(i)//': yields at '//rounded(given%strength*given%area)//' N, '//rounded(given%length)// &
+               & ' m free to stretch, at depth '//rounded(0.0_wp - tie%at(1))//' m, height '//rounded(tie%at(2))//' m')
          end associate
       end do
       if (self%multiplier(1) < huge(1.0_wp)) call lines%add('sides: alpha_0 '//rounded(self%multiplier(1))//' outwards and '// &

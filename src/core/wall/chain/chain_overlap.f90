@@ -29,18 +29,15 @@ contains
       type(motion_type), intent(in) :: motion
       integer, intent(in) :: body, other
 
-      real(wp), allocatable :: one(:, :), two(:, :)
+      type(outline_type), allocatable :: pieces(:), others(:)
       integer :: i, k
 
       area = 0.0_wp
-      do i = 1, size(outlines)
-         if (outlines(i)%body /= body) cycle
-         call move_corners(chain, outlines(i), motion, one)
-         if (.not. is_convex(one)) cycle
-         do k = 1, size(outlines)
-            if (outlines(k)%body /= other) cycle
-            call move_corners(chain, outlines(k), motion, two)
-            if (is_convex(two)) area = area + shared_area(one, two)
+      call find_pieces(chain, outlines, motion, body, pieces)
+      call find_pieces(chain, outlines, motion, other, others)
+      do i = 1, size(pieces)
+         do k = 1, size(others)
+            if (are_near(pieces(i)%corners, others(k)%corners)) area = area + shared_area(pieces(i)%corners, others(k)%corners)
          end do
       end do
    end function overlap_of_bodies
@@ -52,21 +49,51 @@ contains
       type(motion_type), intent(in) :: motion
       integer, intent(in) :: body, other
 
-      real(wp), allocatable :: one(:, :), two(:, :)
+      type(outline_type), allocatable :: pieces(:), others(:)
       integer :: i, k
 
       depth = 0.0_wp
-      do i = 1, size(outlines)
-         if (outlines(i)%body /= body) cycle
-         call move_corners(chain, outlines(i), motion, one)
-         if (.not. is_convex(one)) cycle
-         do k = 1, size(outlines)
-            if (outlines(k)%body /= other) cycle
-            call move_corners(chain, outlines(k), motion, two)
-            if (is_convex(two)) depth = max(depth, depth_within(one, two), depth_within(two, one))
+      call find_pieces(chain, outlines, motion, body, pieces)
+      call find_pieces(chain, outlines, motion, other, others)
+      do i = 1, size(pieces)
+         do k = 1, size(others)
+            associate (one => pieces(i)%corners, two => others(k)%corners)
+               if (are_near(one, two)) depth = max(depth, depth_within(one, two), depth_within(two, one))
+            end associate
          end do
       end do
    end function depth_of_overlap
+
+   !> Find the convex parts of a body at a motion, anticlockwise
+   pure subroutine find_pieces(chain, outlines, motion, body, pieces)
+      type(chain_type), intent(in) :: chain
+      type(outline_type), intent(in) :: outlines(:)
+      type(motion_type), intent(in) :: motion
+      integer, intent(in) :: body
+      type(outline_type), allocatable, intent(out) :: pieces(:)
+
+      real(wp), allocatable :: corners(:, :)
+      integer :: i, n
+
+      allocate (pieces(count(outlines%body == body)))
+      n = 0
+      do i = 1, size(outlines)
+         if (outlines(i)%body /= body) cycle
+         call move_corners(chain, outlines(i), motion, corners)
+         if (.not. is_convex(corners)) cycle
+         n = n + 1
+         pieces(n) = outline_type(body, outlines(i)%part, corners)
+      end do
+      pieces = pieces(:n)
+   end subroutine find_pieces
+
+   !> May two polygons share a point? Not if one is wholly on one side of the other
+   pure logical function are_near(one, two)
+      real(wp), intent(in) :: one(:, :), two(:, :)
+
+      are_near = minval(one(1, :)) <= maxval(two(1, :)) .and. minval(two(1, :)) <= maxval(one(1, :))
+      if (are_near) are_near = minval(one(2, :)) <= maxval(two(2, :)) .and. minval(two(2, :)) <= maxval(one(2, :))
+   end function are_near
 
    !> How deep a corner lies within a convex anticlockwise polygon
    pure real(wp) function depth_within(corners, polygon) result(depth)

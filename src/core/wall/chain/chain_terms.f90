@@ -14,13 +14,17 @@ module dondolo_wall_chain_terms
 
    public :: chain_terms_type, find_end, chain_support, set_at_rest, terms_at, walk_to
 
-   !> Steps of a march, and the rotation beyond which no mechanism is followed [rad]
-   real(wp), parameter :: stride = 2.0e-3_wp, farthest = 1.5_wp
+   !> Shortest and longest steps of a march, and the rotation beyond which no mechanism is followed [rad]
+   real(wp), parameter :: shortest = 2.0e-3_wp, longest = 2.0e-2_wp, farthest = 1.5_wp
+
+   !> Change of the turns in a step that their rates do not foretell, which a march keeps its steps below [rad]
+   real(wp), parameter :: unforeseen = 1.0e-3_wp
 
    !> Terms at a rotation
    type :: chain_terms_type
-      !> J [kg m2], its slope, L [kg m], S [kg m], M [N m] and V from rest [J]
-      real(wp) :: inertia = 0.0_wp, slope = 0.0_wp, lever = 0.0_wp, vertical_lever = 0.0_wp, moment = 0.0_wp, potential = 0.0_wp
+      !> J [kg m2], its slope, L [kg m], S [kg m], M [N m], its slope, and V from rest [J]
+      real(wp) :: inertia = 0.0_wp, slope = 0.0_wp, lever = 0.0_wp, vertical_lever = 0.0_wp, moment = 0.0_wp, &
+         & moment_slope = 0.0_wp, potential = 0.0_wp
    end type chain_terms_type
 
 contains
@@ -72,6 +76,7 @@ contains
             terms%slope = terms%slope + 2.0_wp*(body%mass*sum(v(:2)*w(:2)) + body%inertia*v(3)*w(3))
             terms%lever = terms%lever + body%mass*v(1)
             terms%vertical_lever = terms%vertical_lever + chain%gravity_share*body%mass*v(2)
+            terms%moment_slope = terms%moment_slope + chain%gravity*chain%gravity_share*body%mass*w(2)
             terms%potential = terms%potential + chain%gravity*chain%gravity_share*body%mass*(motion%y(2, i) - body%at(2))
          end associate
       end do
@@ -84,6 +89,7 @@ contains
             terms%lever = terms%lever + action%pushed*rate(1)
             terms%vertical_lever = terms%vertical_lever + c*action%lifted*rate(2)
             terms%moment = terms%moment + c*action%weight*rate(2) - sum(action%thrust*rate)
+            terms%moment_slope = terms%moment_slope + c*action%weight*second(2) - sum(action%thrust*second)
             terms%potential = terms%potential + c*action%weight*(place(2) - action%at(2)) &
                & - sum(action%thrust*(place - action%at))
          end associate
@@ -101,15 +107,24 @@ contains
       type(motion_type) :: first, last, middle
       type(chain_terms_type) :: terms
       type(bracket_type) :: bracket
+      real(wp) :: stride
       logical :: is_there
 
       capacity = huge(1.0_wp)
       geometric_end = huge(1.0_wp)
+      stride = shortest
       call set_at_rest(chain, first)
       do while (first%q < min(farthest, 1.2_wp*min(capacity, farthest)))
          last = first
          call chain%move(first%q + stride, last, is_there)
          if (is_there) is_there = last%sign*first%sign > 0.0_wp
+         ! Where the motion changes fast, as next to its end, steps are the shortest.
+         if (stride > shortest) then
+            if (.not. (is_there .and. surprise() <= unforeseen)) then
+               stride = max(shortest, 0.5_wp*stride)
+               cycle
+            end if
+         end if
          bracket = bracket_type(first%q, first%q + stride)
          if (.not. is_there) then
             do while (bracket%is_divisible())
@@ -125,19 +140,52 @@ contains
          terms = terms_at(chain, last)
          if (terms%moment <= 0.0_wp .and. .not. capacity < huge(1.0_wp)) then
             bracket%last = last%q
-            if (.not. is_there) bracket%first = 0.0_wp
-            do while (bracket%is_divisible())
-               middle = first
-               call chain%move(bracket%middle(), middle, is_there)
-               terms = terms_at(chain, middle)
-               call bracket%halve(terms%moment > 0.0_wp)
-            end do
-            capacity = bracket%middle()
+            if (geometric_end < huge(1.0_wp)) bracket%first = 0.0_wp
+            call find_root(chain, first, bracket, capacity)
          end if
          if (geometric_end < huge(1.0_wp)) return
+         if (surprise() <= 0.1_wp*unforeseen) stride = min(longest, 2.0_wp*stride)
          first = last
       end do
+
+   contains
+
+      !> Change of the turns from `first` to `last` that the rates do not foretell [rad]
+      pure real(wp) function surprise()
+         associate (ahead => last%q - first%q)
+            surprise = maxval(abs(last%y(3, :) - first%y(3, :) - ahead*(first%rate(3, :) + 0.5_wp*ahead*first%bend(3, :))))
+         end associate
+      end function surprise
+
    end subroutine find_end
+
+   !> Find the rotation at which the moment vanishes, by Newton's method, of which steps beyond the bracket halve it
+   pure subroutine find_root(chain, near, bracket, root)
+      class(chain_type), intent(in) :: chain
+      !> The motion at a rotation nearby
+      type(motion_type), intent(in) :: near
+      !> In: the moment is positive at its first end and not at its last; out: what is left of it
+      type(bracket_type), intent(inout) :: bracket
+      !> [rad]
+      real(wp), intent(out) :: root
+
+      type(motion_type) :: motion
+      type(chain_terms_type) :: terms
+      real(wp) :: step
+      logical :: is_there
+
+      root = bracket%middle()
+      do while (bracket%is_divisible())
+         motion = near
+         call chain%move(root, motion, is_there)
+         terms = terms_at(chain, motion)
+         call bracket%narrow(root, terms%moment > 0.0_wp)
+         step = -terms%moment/terms%moment_slope
+         if (abs(step) <= 2.0_wp*epsilon(root)*root) return
+         root = root + step
+         if (.not. (root > min(bracket%first, bracket%last) .and. root < max(bracket%first, bracket%last))) root = bracket%middle()
+      end do
+   end subroutine find_root
 
    !> How supports move the closed chain: with o its opening and f the tilt of the line through its supports, at rest
    !>

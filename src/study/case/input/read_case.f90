@@ -149,8 +149,8 @@ contains
       !> Names the first
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=10), parameter :: groups(*) = [character(len=10) :: 'wall', 'wall', 'wall', 'wall', 'population']
-      character(len=7), parameter :: names(*) = [character(len=7) :: 'table', 'bodies', 'joints', 'actions', 'file']
+      character(len=10), parameter :: groups(*) = [character(len=10) :: 'wall', 'wall', 'wall', 'wall', 'wall', 'population']
+      character(len=7), parameter :: names(*) = [character(len=7) :: 'table', 'bodies', 'joints', 'actions', 'ties', 'file']
       type(group_type) :: group
       integer :: i
 

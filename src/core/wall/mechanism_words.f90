@@ -1,0 +1,44 @@
+!> Words for mechanisms that are none of their names: how such a wall is given.
+module dondolo_wall_mechanism_words
+   use dondolo_base_error, only : not_a_word, problems_type
+   implicit none
+   private
+
+   public :: explain_mechanism
+
+   !> A word, and how such a wall is given
+   type :: word_type
+      character(len=20) :: word
+      character(len=120) :: way
+   end type word_type
+
+   character(len=*), parameter :: arches = 'mechanism = ''chain'', whose tables dd.arch of Python finds and writes '// &
+      & '(docs/chains.md)', bands = 'mechanism = ''chain'', whose tables dd.horizontal_bending of Python writes (docs/chains.md)', &
+      & wedges = 'mechanism = ''one_sided'' with wedge_thickness and the others of wedges (docs/mechanisms.md)', &
+      & panels = 'mechanism = ''one_sided'' with elevation_x, elevation_z, axis_x and axis_z (docs/mechanisms.md)', &
+      & chains = 'mechanism = ''chain'', from tables of its bodies and joints (docs/chains.md)'
+
+   type(word_type), parameter :: words(*) = [word_type('arch', arches), word_type('portal', arches), &
+      & word_type('horizontal', bands), word_type('horizontal_bending', bands), word_type('compound', wedges), &
+      & word_type('wedge', wedges), word_type('panel', panels), word_type('gable', panels), word_type('frame', chains), &
+      & word_type('cavity', chains), word_type('strip', 'mechanism = ''two_block'', of several storeys ''chain'' '// &
+      & '(docs/chains.md)'), word_type('vertical_bending', 'mechanism = ''two_block'', of several storeys ''chain'' '// &
+      & '(docs/chains.md)')]
+
+contains
+
+   !> Note how a wall is given whose mechanism is one of the words
+   subroutine explain_mechanism(mechanism, problems)
+      !> As given
+      character(len=*), intent(in) :: mechanism
+      !> Takes the way
+      type(problems_type), intent(inout) :: problems
+
+      integer :: i
+
+      i = findloc(words%word == mechanism, .true., dim=1)
+      if (i > 0) call problems%note('mechanism = '''//mechanism//''': such a wall has '//trim(words(i)%way), not_a_word, &
+         & 'mechanism')
+   end subroutine explain_mechanism
+
+end module dondolo_wall_mechanism_words
