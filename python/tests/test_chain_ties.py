@@ -324,6 +324,13 @@ def test_files(executable, root, tmp_path):
     assert stored.stripes.broken_ties.shape == (2, 2)
     dd.report(stored, tmp_path / "report.html", lang="it")
     assert "catena" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    for lang in ("en", "it"):
+        dd.calculation_report(stored, tmp_path / "pages.html", lang=lang)
+        text = (tmp_path / "pages.html").read_text(encoding="utf-8")
+        # Forces of a whole body, and steps that give the numbers of the check
+        assert "kN/m<" not in text
+        assert "per metro" not in text
+        assert ("do not give" if lang == "en" else "non danno") not in text
     ax = wall.plot(rotation=0.05)
     assert any("tie 0.62 cm²" in text.get_text() for text in ax.texts)
 
