@@ -324,6 +324,13 @@ def test_files(executable, root, tmp_path):
     assert stored.stripes.broken_ties.shape == (2, 2)
     dd.report(stored, tmp_path / "report.html", lang="it")
     assert "catena" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    for lang in ("en", "it"):
+        dd.calculation_report(stored, tmp_path / "pages.html", lang=lang)
+        text = (tmp_path / "pages.html").read_text(encoding="utf-8")
+        # Forces of a whole body, and steps that give the numbers of the check
+        assert "kN/m<" not in text
+        assert "per metro" not in text
+        assert ("do not give" if lang == "en" else "non danno") not in text
     ax = wall.plot(rotation=0.05)
     assert any("tie 0.62 cm²" in text.get_text() for text in ax.texts)
 
@@ -334,43 +341,27 @@ STRIP = {
 }  # fmt: skip
 
 
+def rod(body, at, **more):
+    return dd.PointTie(body, at, **{"area": 1e-4, "length": 5.0} | more)
+
+
 @pytest.mark.parametrize(
     ("tie", "words"),
     [
-        (
-            dd.PointTie(3, (0.0, 1.8), area=1e-4, length=5.0),
-            "tie 1 is between 3 and 0, must be between one of 2 bodies",
-        ),
-        (
-            dd.PointTie(1, (0.0, 1.8), area=100.0, length=5.0),
-            "tie 1 has area = 100, must lie between 1e-8 and 0.1: is it in mm2",
-        ),
-        (dd.PointTie(1, (0.0, 1.8), area=1e-4, length=0.0), "tie 1 has length = 0, must lie between 0.1 and 1000"),
-        (dd.PointTie(1, (0.0, 1.8), area=1e-4, length=5.0, strength=180.0), "strength = 180, .*: is it in MPa"),
-        (
-            dd.PointTie(1, (0.0, 1.8), area=1e-4, length=5.0, preload=2e8),
-            "preload = 200000000, must be less than its strength",
-        ),
-        (
-            dd.PointTie(1, (0.0, 1.8), area=1e-4, length=5.0, preload=1e8, anchor_force=5e3),
-            "at which its anchor gives way",
-        ),
-        (dd.PointTie(1, (0.0, 1.8), area=1e-4, length=5.0, strain=5e-4), "strain = 0.0005, must be more than 0.000873"),
-        (dd.PointTie(1, (2.0, 1.8), area=1e-4, length=5.0), "tie 1 at depth -2 m, height 1.8 m is 2 m off body 1"),
-        (
-            dd.PointTie(1, (0.0, 1.8), area=1e-4, length=5.0, angle=180.0),
-            "tie 1 would become shorter before the chain has turned",
-        ),
-        (
-            dd.PointTie(1, (0.0, 1.0), area=1e-4, length=5.0, angle=30.0, other=2, other_at=(0.0, 2.5)),
-            "tie 1 has an angle, which only ties to the ground have",
-        ),
-        (
-            dd.PointTie(1, (0.0, 1.8), area=1e-4, length=5.0, other=2, other_at=(0.0, 1.8)),
-            "tie 1 has both its ends at one point",
-        ),
+        (rod(3, (0.0, 1.8)), "tie 1 is between 3 and 0, must be between one of 2 bodies"),
+        (rod(1, (0.0, 1.8), area=100.0), "tie 1 has area = 100, must lie between 1e-8 and 0.1: is it in mm2"),
+        (rod(1, (0.0, 1.8), length=0.0), "tie 1 has length = 0, must lie between 0.1 and 1000"),
+        (rod(1, (0.0, 1.8), strength=180.0), "strength = 180, .*: is it in MPa"),
+        (rod(1, (0.0, 1.8), preload=2e8), "preload = 200000000, must be less than its strength"),
+        (rod(1, (0.0, 1.8), preload=1e8, anchor_force=5e3), "at which its anchor gives way"),
+        (rod(1, (0.0, 1.8), strain=5e-4), "strain = 0.0005, must be more than 0.000873"),
+        (rod(1, (2.0, 1.8)), "tie 1 at depth -2 m, height 1.8 m is 2 m off body 1"),
+        (rod(1, (0.0, 1.8), angle=180.0), "tie 1 would become shorter before the chain has turned"),
+        (rod(1, (0.0, 1.0), angle=30.0, other=2, other_at=(0.0, 2.5)),
+         "tie 1 has an angle, which only ties to the ground have"),
+        (rod(1, (0.0, 1.8), other=2, other_at=(0.0, 1.8)), "tie 1 has both its ends at one point"),
     ],
-)
+)  # fmt: skip
 def test_refusals(tie, words):
     with pytest.raises(dd.errors.InputError, match=words):
         dd.Chain(**STRIP, ties=[tie])
