@@ -173,7 +173,9 @@ contains
          case default
             number = settings%number(variable)
             ! The sum of storeys, whose last digit is that of its rounding
-            if (variable == 'height' .and. settings%has('section_height')) number = rounded_to(number, 15)
+            if (variable == 'height') then
+               if (settings%has('section_height')) number = rounded_to(number, 15)
+            end if
             call echo%add(name, variable, number, joins)
          end select
       end subroutine add
