@@ -1,4 +1,4 @@
-"""Cost of ties, friction and moving supports beside a bare wall, of joints that bend, and of what no history takes.
+"""Cost of ties, friction, moving supports, scatter, chains and joints that bend, and of what no history takes.
 
 Ratios are of turns taken one after the other; accelerograms are the embedded synthetic ones.
 """
@@ -9,11 +9,12 @@ import sys
 import tempfile
 import time
 from contextlib import chdir
+from dataclasses import asdict
 from functools import partial
 
 import numpy as np
 from cores import Cores
-from scaling import CATALOGUE, LEVELS, row, timed
+from scaling import CATALOGUE, LEVELS, row, spread_of, timed
 
 import dondolo as dd
 
@@ -48,6 +49,25 @@ def strip(**more):
 #: The first is what the others are compared with
 STRIPS = {"rigid": strip()} | {f"period {period} s": strip(elastic_period=period) for period in (0.03, 0.06, 0.1, 0.15)}
 STRIP_LEVELS = np.linspace(0.3, 3.3, 26)
+#: At one level, and on its own building: the strip of rigid blocks first
+ON_BUILDING = {"building": dd.Building(0.3, storeys=3, level=6.0, building_height=9.0)}
+PAIRS = {
+    "one level of 1 g": ({}, [1.0]),
+    "on its own building": (ON_BUILDING, STRIP_LEVELS),
+}
+#: Kinds of walls; the first is what the others are compared with
+WALLS = {
+    "facade": facade(),
+    "facade with a tie": facade(8.5),
+    "facade, scatter of restitution": facade(restitution_sd=0.05),
+    "facade on a building": facade(building=BUILDING),
+    "block that rocks to both sides": dd.FreeStandingWall(3.0, 0.4),
+    "strip of two blocks": dd.TwoBlockWall(4.0, 0.25, hinge=0.6),
+    "strip that bends, 0.1 s": dd.TwoBlockWall(4.0, 0.25, hinge=0.6, elastic_period=0.1),
+    "chain, horizontal bending": dd.horizontal_bending(
+        6.0, 0.3, 1900.0, thrust=10e3, hinge_depth=0.01, sides=2, restitution_value=0.74
+    ),
+}
 #: What is done in a process in which it has been done before, but for the import
 FIXED = {
     "import dondolo": "a new process, without NumPy's import",
@@ -75,6 +95,16 @@ def in_turns(kind, walls, levels, repeats):
         rows.append(row(kind, place, histories, own))
         rows.append(row(f"{kind} ratio", place, histories, ratios))
     return rows
+
+
+def kinds(repeats):
+    """Seconds of kinds of walls, and ratios to the first, as they are and per sample interval of rocking."""
+    records, levels = dd.read_catalogue(CATALOGUE), LEVELS
+    rows = in_turns("kind", WALLS, levels, repeats)
+    rocked = [dd.multiple_stripe(wall, records, levels, progress=False).work.rocked for wall in WALLS.values()]
+    own = [found for found in rows if found["kind"] == "kind ratio"]
+    per_sample = [(spread_of(one).times(rocked[0] / number), one) for one, number in zip(own, rocked, strict=True)]
+    return rows + [one | asdict(spread) | {"kind": "kind ratio per sample"} for spread, one in per_sample]
 
 
 def imports():
@@ -141,4 +171,7 @@ def seconds_of(work):
 def measure(repeats):
     """Measure all: rows as those of the scaling."""
     walls = in_turns("facade", FACADES, LEVELS, repeats) + in_turns("strip", STRIPS, STRIP_LEVELS, repeats)
-    return walls + fixed(repeats)
+    for name, (more, levels) in PAIRS.items():
+        pair = {"rigid": strip(**more), "bends": strip(elastic_period=0.1, **more)}
+        walls += in_turns(f"strip, {name}", pair, levels, repeats)
+    return walls + kinds(repeats) + fixed(repeats)

@@ -7,7 +7,7 @@ from dataclasses import astuple, dataclass, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from beside import FACADES, STRIPS
+from beside import FACADES, STRIPS, WALLS
 from problem import ROOT
 from rounds import LIMIT, STILL, compared, core_of, ratio, references, shares, times_of
 from scaling import VARIANTS, spread_of
@@ -116,6 +116,8 @@ def figures(results, turns, rows):
             found[f"facade with {list(FACADES)[size]} / bare"] = spread_of(row)
         if row["kind"] == "strip ratio" and size > 0:
             found[f"strip, {list(STRIPS)[size]} / rigid"] = spread_of(row)
+        if row["kind"] == "kind ratio" and size > 0:
+            found[f"{list(WALLS)[size]} / facade"] = spread_of(row)
     return [Figure(name, Spread(*(float(f"{x:.4g}") for x in astuple(spread)))) for name, spread in found.items()]
 
 

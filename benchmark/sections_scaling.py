@@ -1,7 +1,7 @@
 """Scaling with threads and sizes, and memory."""
 
 import cost_model
-from beside import FACADES, FIXED, STRIPS
+from beside import FACADES, FIXED, PAIRS, STRIPS, WALLS
 from markdown import paragraph, table
 from populations import KINDS
 from scaling import VARIANTS, spread_of
@@ -37,7 +37,7 @@ def scaling(rows):
     lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['median']:.1f}"] for r in rows if r["kind"] == "memory" and r["median"] > 0.0]
     lines += table(["histories", "peak memory, MiB"], body)
-    return lines + populations(rows) + facades(rows) + strips(rows) + fixed(rows)
+    return lines + populations(rows) + kinds(rows) + facades(rows) + strips(rows) + fixed(rows)
 
 
 def per_history(row):
@@ -63,6 +63,23 @@ def populations(rows):
     return lines + table(["population", "walls", "ms per wall, last size", "exponent", "peak memory, MiB"], body)
 
 
+def kinds(rows):
+    """Kinds of walls beside the facade, as they are and per sample interval of rocking; none in files of before."""
+    own = [row for row in rows if row["kind"] == "kind"]
+    if not own:
+        return []
+    lines = paragraph(
+        "Kinds of walls at the same levels, in turns on one thread; ratios are to the facade in the same turn. Walls "
+        "that survive rock longer than walls that fall: the last column is per sample interval in which a wall rocks."
+    )
+    gains, per_sample = ([r for r in rows if r["kind"] == f"kind ratio{what}"] for what in ("", " per sample"))
+    body = [
+        [list(WALLS)[int(row["size"])], per_history(row), spread_of(gain).stated(), spread_of(one).stated()]
+        for row, gain, one in zip(own, gains, per_sample, strict=True)
+    ]
+    return lines + table(["wall", "ms per history", "ratio", "ratio per interval of rocking"], body)
+
+
 def facades(rows):
     """Ties, friction and moving supports beside the bare wall."""
     lines = paragraph(
@@ -82,7 +99,10 @@ def strips(rows):
         "(`elastic_period`), at 26 levels of PGA from 0.3 to 3.3 g, in turns on one thread; ratios are to the rigid "
         "strip in the same turn."
     )
-    return lines + in_turns(rows, "strip", list(STRIPS))
+    lines += in_turns(rows, "strip", list(STRIPS))
+    gains = {name: [r for r in rows if r["kind"] == f"strip, {name} ratio"] for name in PAIRS}
+    body = [[name, spread_of(found[1]).stated()] for name, found in gains.items() if found]
+    return lines + table(["the strip with a period of 0.1 s beside the rigid one", "ratio"], body)
 
 
 def in_turns(rows, kind, names):
