@@ -1,10 +1,13 @@
 !> Words for mechanisms that are none of their names: how such a wall is given.
 module dondolo_wall_mechanism_words
    use dondolo_base_error, only : not_a_word, problems_type
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_text, only : join
+   use dondolo_base_plain, only : shown
    implicit none
    private
 
-   public :: explain_mechanism
+   public :: check_mechanism
 
    !> A word, and how such a wall is given
    type :: word_type
@@ -27,18 +30,24 @@ module dondolo_wall_mechanism_words
 
 contains
 
-   !> Note how a wall is given whose mechanism is one of the words
-   subroutine explain_mechanism(mechanism, problems)
+   !> Note a mechanism that is none, and how such a wall is given
+   subroutine check_mechanism(mechanism, names, problems)
       !> As given
       character(len=*), intent(in) :: mechanism
-      !> Takes the way
+      !> Those that there are
+      character(len=*), intent(in) :: names(:)
+      !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
+      character(len=:), allocatable :: allowed
       integer :: i
 
+      if (any(mechanism == names)) return
+      allowed = 'must be one of '//join(names)
       i = findloc(words%word == mechanism, .true., dim=1)
-      if (i > 0) call problems%note('mechanism = '''//mechanism//''': such a wall has '//trim(words(i)%way), not_a_word, &
-         & 'mechanism')
-   end subroutine explain_mechanism
+      if (i > 0) allowed = allowed//'; such a wall has '//trim(words(i)%way)
+      if (len_trim(odd_character(mechanism)) > 0) allowed = allowed//'; it has '//trim(odd_character(mechanism))
+      call problems%note('mechanism = '''//shown(mechanism)//''': '//allowed, not_a_word, 'mechanism')
+   end subroutine check_mechanism
 
 end module dondolo_wall_mechanism_words

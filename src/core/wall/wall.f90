@@ -10,7 +10,7 @@ module dondolo_wall
    use dondolo_wall_elastic_branch, only : add_elastic_joint, usual_damping
    use dondolo_wall_gravity, only : gravity_property
    use dondolo_wall_hinge_level, only : cut_wall, read_hinge_levels, has_hinge_level
-   use dondolo_wall_mechanism_words, only : explain_mechanism
+   use dondolo_wall_mechanism_words, only : check_mechanism
    use dondolo_wall_model, only : wall_model_type
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_properties, only : is_beyond_bare, is_of_building, masonry_names, mechanism_names, wall_input_type
@@ -151,8 +151,8 @@ contains
       call take_damping(wall%input, problems)
       call wall%input%fill(mechanism)
       call wall%input%set('name', trim(wall%input%word('name')))
+      if (input%has('mechanism')) call check_mechanism(input%word('mechanism'), mechanism_names, problems)
       call check_settings(wall%input, problems, 'mechanism', mechanism)
-      call explain_mechanism(input%word('mechanism'), problems)
       if (problems%count == 0 .and. wall%input%gives(is_of_building)) then
          if (wall%input%has('base_level')) call problems%note('base_level = '//to_text(wall%input%number('base_level'))// &
             & ': not on a building that is given, whose level it is', not_together, 'base_level')

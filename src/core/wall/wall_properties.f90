@@ -39,7 +39,7 @@ module dondolo_wall_properties
    type(property_type), parameter :: general_rows(*) = [ &
       & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
-      &   example='one_sided', meaning='how the wall rocks'), &
+      &   checked_by_owner=.true., example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
       &   example='3.0', meaning='height of the wall', instead='section_height, elevation_z', &
       &   usual_most=60.0_wp), &

@@ -66,7 +66,7 @@ module dondolo_base_property
       character(len=8) :: zero = ''
       !> Texts that it can be; empty: any
       character(len=choices_length) :: choices(most_choices) = ''
-      !> Does the mechanism check which of its choices it has?
+      !> Does what has it check which of its choices it is?
       logical :: checked_by_owner = .false.
       !> What has it, among mechanisms or tasks; empty: all
       character(len=choices_length) :: owners(most_choices) = ''
