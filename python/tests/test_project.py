@@ -36,15 +36,6 @@ def test_versions(root):
     assert dd.__version__ == fpm == python == meson == citation == zenodo
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="glibc alone has vector functions")
-def test_no_vector_functions_of_glibc(executable):
-    """Their last digits depend on its version and on the optimization, and so would results."""
-    for program in (Path(executable), Path(_core.__file__)):
-        content = program.read_bytes()
-        assert b"exp\0" in content, f"{program}: names of functions are not found as they are here"
-        assert b"_ZGV" not in content, program
-
-
 def test_fortran_sources(root):
     text = (root / "src/meson.build").read_text()
     *layers, app = (

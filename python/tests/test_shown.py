@@ -116,7 +116,7 @@ def test_every_result_is_a_table(things):
     plain = {
         "Body", "Boundary", "Certified", "Choice", "Curve", "DistributedSpring", "GivenMass", "Group",
         "Guide", "InertialMass", "Interlock", "Load", "Lognormal", "Normal", "Opening", "Part", "Pin",
-        "PointLoad", "PointMass", "PointThrust", "Problem", "Regression", "RotD", "Section", "Sector",
+        "PointLoad", "PointMass", "PointThrust", "PointTie", "Problem", "Regression", "RotD", "Section", "Sector",
         "Solver", "Spring", "State", "Terms", "Thrust", "Tie", "Triangular", "Uniform", "Wall", "Wedge",
         "Window", "Work",
     }  # fmt: skip
