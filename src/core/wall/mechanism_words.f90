@@ -3,7 +3,7 @@ module dondolo_wall_mechanism_words
    use dondolo_base_error, only : not_a_word, problems_type
    use dondolo_base_odd_character, only : odd_character
    use dondolo_base_text, only : join
-   use dondolo_base_plain, only : shown
+   use dondolo_base_plain, only : is_plain, shown
    implicit none
    private
 
@@ -42,7 +42,8 @@ contains
       character(len=:), allocatable :: allowed
       integer :: i
 
-      if (any(mechanism == names)) return
+      ! Of one that is not plain, its property says so.
+      if (any(mechanism == names) .or. .not. is_plain(mechanism)) return
       allowed = 'must be one of '//join(names)
       i = findloc(words%word == mechanism, .true., dim=1)
       if (i > 0) allowed = allowed//'; such a wall has '//trim(words(i)%way)

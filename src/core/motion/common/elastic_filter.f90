@@ -132,7 +132,7 @@ contains
       !> Samples before the first, and number of the last sample interval of the record
       integer, intent(in) :: before, last
       !> Acceleration of the ground and states, from the first sample on
-      real(wp), dimension(0:block_size), intent(in) :: a, x, v
+      real(wp), dimension(0:), intent(in) :: a, x, v
 
       integer :: block, first, i, n
 
