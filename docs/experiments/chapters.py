@@ -127,7 +127,7 @@ def model_error() -> list[str]:
         "## The error of the model in a curve",
         "",
         *markdown.paragraph(
-            "[`with_model_error(bias, beta)`](model_uncertainty.md#the-error-of-the-model-itself) shows a curve with"
+            "[`with_model_error(bias, beta)`](reading_a_curve.md#the-error-of-the-model-itself) shows a curve with"
             " an error of its model. The numbers to give describe how ln(measured median/computed median) varies"
             " between specimens of known geometry. τ² is the variance of these biases less the mean of their squared"
             " standard errors. For a new wall beta is τ √(1 + 1/n), with Student's t of n - 1 degrees of freedom. At"
