@@ -140,41 +140,19 @@ def consequences(statistics: dict) -> list[str]:
     """What follows for a user."""
     first = statistics["limestone"]["first_impact"]
     squat = statistics["limestone"]["ten_impacts"]["by_slenderness"]["4"]
-    rows = [
-        [
-            "stone on stone or steel",
-            "`colombo_2025`: normal, 0.990, sd 0.018",
-            f"{first['n']} impacts, {first['groups_ratio']} slendernesses",
-            "Colombo et al. 2025",
-        ],
-        [
-            "blocks on concrete",
-            "`elgawady_2010`: uniform, 0.90 to 1.00",
-            "2 ratios, 0.95 and 0.97; the width is assumed",
-            "ElGawady et al. 2010",
-        ],
-        [
-            "strips of brick",
-            "`graziotti_2016`: uniform, 0.84 to 0.90, of equation (4)",
-            "range as cited",
-            "Graziotti et al. 2016",
-        ],
-        ["rubber, soft joints", "none", "1 ratio, 0.67", "ElGawady et al. 2010"],
-    ]
     return [
         "## What follows for your study",
         "",
         *markdown.paragraph(
-            "**Restitution.** A factor on the speed ratio of the model, for `&uncertainty` and"
-            " `dd.propagate_uncertainty`:"
+            "**Restitution.** The factors that `&uncertainty` and `dd.propagate_uncertainty` know are"
+            " [listed](reading_a_curve.md#restitution-what-is-published); `colombo_2025` is from"
+            f" {first['n']} impacts of {first['groups_ratio']} slendernesses."
         ),
-        *markdown.table(["contact", "restitution_factor", "n", "source"], rows),
         *markdown.bullets(
             [
-                "Scatter and uncertainty are two numbers. From impact to impact the ratio varies with a standard"
-                f" deviation of {first['within_ratio']:.3f} within a slenderness (`restitution_sd` of the wall); the"
-                f" mean that a wall has at all its impacts is uncertain by {first['between_ratio']:.3f}"
-                " (`restitution_factor`). Do not put the first in place of the second.",
+                "From impact to impact the ratio varies with a standard deviation of"
+                f" {first['within_ratio']:.3f} within a slenderness (`restitution_sd` of the wall); the mean is uncertain"
+                f" by {first['between_ratio']:.3f} (`restitution_factor`). Do not put the first in place of the second.",
                 f"Squat blocks, H/B of 4: give `restitution_value = {squat['measured']:.2f}` beside the default of"
                 f" {squat['computed']:.3f}, and report the lower median.",
             ]
