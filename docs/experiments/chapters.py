@@ -57,9 +57,9 @@ def reading(specimens: dict) -> list[str]:
         [
             "Stone on stone loses the speed that Housner's formula gives, within 2 %. Squat blocks lose less in"
             " repeated rocking.",
-            "Whether a boulder falls under a known motion is computed better than by the guess that it never does. It"
-            " is not computed better than by one threshold on PGV found on other tests of the same boulder: this is"
-            f" right in {across} % of the tests, dondolo in {ours} %. A new wall has no such tests.",
+            "Whether a boulder falls under a known motion is computed better than by the guess that it never does, not"
+            f" better than by one threshold on PGV found on other tests: this is right in {across} %, dondolo in {ours} %."
+            " A new wall has no such tests.",
             "Loaded strips begin to move at far lower accelerations than rigid blocks: they [bend](bending.md) before"
             " they rock.",
             "No test of a one-sided facade, the most frequent wall of dondolo, is here.",
@@ -172,14 +172,9 @@ def consequences(statistics: dict) -> list[str]:
         " identified"
         f" {ALPHA} the two are correlated.",
         "4. Use the motion of the floor or of the showcase, not that of the ground.",
-        "5. If you test the object on a table, measure the motion of the table. A commanded motion is not a measured"
-        " one.",
+        "5. If you test the object on a table, measure the motion of the table, and give its catalogue `shake table` in"
+        " the\n   column `motion` ([ground motions](ground_motions.md#catalogues)).",
         "",
-        *markdown.paragraph(
-            "Motions of shake tables are often scaled in time and have a low PGV/PGA. dondolo does not ask whether"
-            " their time step is wrong if their catalogue has `shake table` in the column `motion` ([ground"
-            " motions](ground_motions.md#catalogues))."
-        ),
     ]
 
 
