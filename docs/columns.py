@@ -101,7 +101,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "naive_se_beta": "likewise of beta",
             "cov_ln_theta_beta": _SAME,
             "deviance": "twice the difference from the log-likelihood of the fractions"
-            " ([goodness of fit](../reading_a_curve.md#is-it-a-lognormal)); of ordinal states that of all curves together",
+            " ([goodness of fit](../reading_a_curve.md#is-it-a-lognormal));"
+            " of ordinal states that of all curves together",
             "deviance_dof": "levels less parameters",
         },
     ),

@@ -58,8 +58,8 @@ def reading(specimens: dict) -> list[str]:
             "Stone on stone loses the speed that Housner's formula gives, within 2 %. Squat blocks lose less in"
             " repeated rocking.",
             "Whether a boulder falls under a known motion is computed better than by the guess that it never does, not"
-            f" better than by one threshold on PGV found on other tests: this is right in {across} %, dondolo in {ours} %."
-            " A new wall has no such tests.",
+            " better than by one threshold on PGV found on other tests: this is right in"
+            f" {across} %, dondolo in {ours} %. A new wall has no such tests.",
             "Loaded strips begin to move at far lower accelerations than rigid blocks: they [bend](bending.md) before"
             " they rock.",
             "No test of a one-sided facade, the most frequent wall of dondolo, is here.",
@@ -151,8 +151,9 @@ def consequences(statistics: dict) -> list[str]:
         *markdown.bullets(
             [
                 "From impact to impact the ratio varies with a standard deviation of"
-                f" {first['within_ratio']:.3f} within a slenderness (`restitution_sd` of the wall); the mean is uncertain"
-                f" by {first['between_ratio']:.3f} (`restitution_factor`). Do not put the first in place of the second.",
+                f" {first['within_ratio']:.3f} within a slenderness (`restitution_sd` of the wall); the mean is"
+                f" uncertain by {first['between_ratio']:.3f} (`restitution_factor`). Do not put the first in place of"
+                " the second.",
                 f"Squat blocks, H/B of 4: give `restitution_value = {squat['measured']:.2f}` beside the default of"
                 f" {squat['computed']:.3f}, and report the lower median.",
             ]
