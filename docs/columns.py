@@ -23,7 +23,7 @@ COMMON = {
     "clusters": "number of clusters of records; of walls for `few_walls` and `one_wall`",
     "degrees_of_freedom": "of Student's t in intervals: clusters - 1, or Satterthwaite's where walls count too",
 }
-_CERTIFIED = "[certify](../certification.md#what-happens)"
+_CERTIFIED = "[certify](../reading_a_curve.md#certified-histories)"
 _SAME = None  # The meaning of COMMON
 
 # What is to be said of a table, and its columns in order
@@ -101,7 +101,8 @@ TABLES: dict[str, tuple[str, dict[str, str | None]]] = {
             "naive_se_beta": "likewise of beta",
             "cov_ln_theta_beta": _SAME,
             "deviance": "twice the difference from the log-likelihood of the fractions"
-            " ([goodness of fit](../goodness_of_fit.md)); of ordinal states that of all curves together",
+            " ([goodness of fit](../reading_a_curve.md#is-it-a-lognormal));"
+            " of ordinal states that of all curves together",
             "deviance_dof": "levels less parameters",
         },
     ),

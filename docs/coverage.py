@@ -443,8 +443,8 @@ add little to twelve.
 
 TEXT = """# Coverage of intervals
 
-`./run intervals` writes this page. [Uncertainty](../uncertainty.md) explains what the intervals are. The first table
-decided the estimator: with few records intervals with CR0 and the normal quantile are too narrow for β.
+`./run intervals` writes this page. [The intervals](../reading_a_curve.md#the-intervals) explains what they are. The
+first table decided the estimator: with few records intervals with CR0 and the normal quantile are too narrow for β.
 """
 
 

@@ -1,4 +1,4 @@
-"""Measure what docs/floors.md says: DONDOLO_RECORDS=FOLDER python docs/floors.py."""
+"""Measure the parapet on a roof of docs/studies/curves.md: DONDOLO_RECORDS=FOLDER python docs/floors.py."""
 
 import os
 from collections.abc import Sequence

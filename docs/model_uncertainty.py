@@ -1,4 +1,4 @@
-"""Print what docs/model_uncertainty.md says of restitution and of the hinge.
+"""Print what docs/reading_a_curve.md says of restitution and of the hinge.
 
 DONDOLO_RECORDS=FOLDER python docs/model_uncertainty.py
 """

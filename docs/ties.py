@@ -1,4 +1,7 @@
-"""Measure what docs/ties.md says, and draw its figure of designs: DONDOLO_RECORDS=FOLDER python docs/ties.py."""
+"""Measure ties for docs/ties.md and docs/studies/curves.md, and draw their designs.
+
+DONDOLO_RECORDS=FOLDER python docs/ties.py
+"""
 
 import os
 import runpy

@@ -167,7 +167,7 @@ contains
       point = [x*cos(angle) + y*sin(angle), y*cos(angle) - x*sin(angle)]
    end function turned
 
-   !> The stepped facade of docs/facades.md
+   !> The stepped facade of docs/mechanisms.md
    function stepped(inertia) result(input)
       !> What its loads move
       character(len=*), intent(in) :: inertia

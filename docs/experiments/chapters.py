@@ -57,9 +57,9 @@ def reading(specimens: dict) -> list[str]:
         [
             "Stone on stone loses the speed that Housner's formula gives, within 2 %. Squat blocks lose less in"
             " repeated rocking.",
-            "Whether a boulder falls under a known motion is computed better than by the guess that it never does. It"
-            " is not computed better than by one threshold on PGV found on other tests of the same boulder: this is"
-            f" right in {across} % of the tests, dondolo in {ours} %. A new wall has no such tests.",
+            "Whether a boulder falls under a known motion is computed better than by the guess that it never does, not"
+            " better than by one threshold on PGV found on other tests: this is right in"
+            f" {across} %, dondolo in {ours} %. A new wall has no such tests.",
             "Loaded strips begin to move at far lower accelerations than rigid blocks: they [bend](bending.md) before"
             " they rock.",
             "No test of a one-sided facade, the most frequent wall of dondolo, is here.",
@@ -127,7 +127,7 @@ def model_error() -> list[str]:
         "## The error of the model in a curve",
         "",
         *markdown.paragraph(
-            "[`with_model_error(bias, beta)`](model_uncertainty.md#the-error-of-the-model-itself) shows a curve with"
+            "[`with_model_error(bias, beta)`](reading_a_curve.md#the-error-of-the-model-itself) shows a curve with"
             " an error of its model. The numbers to give describe how ln(measured median/computed median) varies"
             " between specimens of known geometry. τ² is the variance of these biases less the mean of their squared"
             " standard errors. For a new wall beta is τ √(1 + 1/n), with Student's t of n - 1 degrees of freedom. At"
@@ -140,41 +140,20 @@ def consequences(statistics: dict) -> list[str]:
     """What follows for a user."""
     first = statistics["limestone"]["first_impact"]
     squat = statistics["limestone"]["ten_impacts"]["by_slenderness"]["4"]
-    rows = [
-        [
-            "stone on stone or steel",
-            "`colombo_2025`: normal, 0.990, sd 0.018",
-            f"{first['n']} impacts, {first['groups_ratio']} slendernesses",
-            "Colombo et al. 2025",
-        ],
-        [
-            "blocks on concrete",
-            "`elgawady_2010`: uniform, 0.90 to 1.00",
-            "2 ratios, 0.95 and 0.97; the width is assumed",
-            "ElGawady et al. 2010",
-        ],
-        [
-            "strips of brick",
-            "`graziotti_2016`: uniform, 0.84 to 0.90, of equation (4)",
-            "range as cited",
-            "Graziotti et al. 2016",
-        ],
-        ["rubber, soft joints", "none", "1 ratio, 0.67", "ElGawady et al. 2010"],
-    ]
     return [
         "## What follows for your study",
         "",
         *markdown.paragraph(
-            "**Restitution.** A factor on the speed ratio of the model, for `&uncertainty` and"
-            " `dd.propagate_uncertainty`:"
+            "**Restitution.** The factors that `&uncertainty` and `dd.propagate_uncertainty` know are"
+            " [listed](reading_a_curve.md#restitution-what-is-published); `colombo_2025` is from"
+            f" {first['n']} impacts of {first['groups_ratio']} slendernesses."
         ),
-        *markdown.table(["contact", "restitution_factor", "n", "source"], rows),
         *markdown.bullets(
             [
-                "Scatter and uncertainty are two numbers. From impact to impact the ratio varies with a standard"
-                f" deviation of {first['within_ratio']:.3f} within a slenderness (`restitution_sd` of the wall); the"
-                f" mean that a wall has at all its impacts is uncertain by {first['between_ratio']:.3f}"
-                " (`restitution_factor`). Do not put the first in place of the second.",
+                "From impact to impact the ratio varies with a standard deviation of"
+                f" {first['within_ratio']:.3f} within a slenderness (`restitution_sd` of the wall); the mean is"
+                f" uncertain by {first['between_ratio']:.3f} (`restitution_factor`). Do not put the first in place of"
+                " the second.",
                 f"Squat blocks, H/B of 4: give `restitution_value = {squat['measured']:.2f}` beside the default of"
                 f" {squat['computed']:.3f}, and report the lower median.",
             ]
@@ -194,14 +173,9 @@ def consequences(statistics: dict) -> list[str]:
         " identified"
         f" {ALPHA} the two are correlated.",
         "4. Use the motion of the floor or of the showcase, not that of the ground.",
-        "5. If you test the object on a table, measure the motion of the table. A commanded motion is not a measured"
-        " one.",
+        "5. If you test the object on a table, measure the motion of the table, and give its catalogue `shake table` in"
+        " the\n   column `motion` ([ground motions](ground_motions.md#catalogues)).",
         "",
-        *markdown.paragraph(
-            "Motions of shake tables are often scaled in time and have a low PGV/PGA. dondolo does not ask whether"
-            " their time step is wrong if their catalogue has `shake table` in the column `motion` ([ground"
-            " motions](ground_motions.md#catalogues))."
-        ),
     ]
 
 

@@ -143,7 +143,7 @@ def loaded(executable, records):
         *bullets(f"`{wall}`: `{said}`; PGA in g: `{LOADED_STRIPES[wall]}`" for wall, said in LOADED_WALLS.items()),
         *table(["wall", "lanes", "worst", "median", "rk45", "worst", "median"], errors),
         *paragraph(
-            "The walls below are 3 m by 0.25 m, with loads on top as in [loads.md](../loads.md). Each has 880 "
+            "The walls below are 3 m by 0.25 m, with loads on top as in [Loads](../mechanisms.md#loads). Each has 880 "
             "histories of the recorded accelerograms, at 20 levels up to 1 g, or 4 g for `two_block`, compared with "
             f"rk45 at rtol = {power(TIGHTEST)}. The last column is the CPU time of lanes on one thread, the least of "
             f"{REPEATS} runs, over that of the bare wall."

@@ -1,4 +1,4 @@
-"""The cases solved by hand in docs/studies/cases_by_hand.md and docs/tutorial/casi_prova.md, against the executable."""
+"""The cases solved by hand in docs/studies/cases_by_hand.md and docs/studies/casi_prova.md, against the executable."""
 
 import csv
 import re
@@ -9,7 +9,7 @@ import pytest
 CASES = ("facade", "strip", "tie", "weakest", "parapet", "left_out")
 # Files whose rows begin with their names in the part of another
 OTHERS = ("tied",)
-PAGES = ("docs/studies/cases_by_hand.md", "docs/tutorial/casi_prova.md")
+PAGES = ("docs/studies/cases_by_hand.md", "docs/studies/casi_prova.md")
 
 
 def rows_of(text):

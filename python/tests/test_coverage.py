@@ -63,7 +63,7 @@ def test_the_coverage_that_is_printed_is_measured(root):
     assert [row[:2] for row in found] == [(n, size) for n in ("12", "20") for size in ("22", "44", "100")]
     exact = ", ".join(row[2] for row in found[3:5]) + f" and {found[5][2]} %"
     rounded = "{}, {} and {} %".format(*(round(float(row[2])) for row in found[3:]))
-    text = (root / "docs/uncertainty.md").read_text(encoding="utf-8")
+    text = (root / "docs/reading_a_curve.md").read_text(encoding="utf-8")
     assert exact in " ".join(text.split())
     template = root / "python/dondolo/reporting/templates/wall_uncertainty.html.j2"
     for printed in (dd.Fragility.parameter_interval.__doc__, template.read_text(encoding="utf-8")):

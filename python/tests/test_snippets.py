@@ -108,11 +108,11 @@ GROUPS = {
 TYPOLOGY = {"job": "&job task = 'typology', output = 'out/page' /"}
 STRIP = {"wall": "&wall mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /"}
 HOUSE = {"building": "&building period = 0.3, storeys = 3, level = 0.0, building_height = 9.0 /"}
-ASSUMED = {"docs/bending.md": STRIP, "docs/facades.md": TYPOLOGY}
+ASSUMED = {"docs/bending.md": STRIP, "docs/mechanisms.md": TYPOLOGY}
 # Of a page with several blocks, by the first group of each
 ASSUMED_BY_BLOCK = {
-    ("docs/supports.md", "building"): STRIP,
-    ("docs/supports.md", "uncertainty"): HOUSE,
+    ("docs/buildings.md", "building"): STRIP,
+    ("docs/buildings.md", "uncertainty"): HOUSE,
 }
 
 

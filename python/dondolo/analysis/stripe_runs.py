@@ -320,7 +320,7 @@ def adaptive_stripes(
     The first level scales the median record to a PGA of twice the wall's trigger acceleration. While nothing or
     everything collapses, the next level is twice or half the last. Then a level maximises the determinant of the
     information on (ln theta, ln beta): a record counts as one capacity, of which stripes tell between which levels it
-    lies (docs/uncertainty.md). The same levels result for any number of threads. It ends early where the next level
+    lies (docs/reading_a_curve.md). The same levels result for any number of threads. It ends early where the next level
     would scale a record beyond all measure.
 
     Examples

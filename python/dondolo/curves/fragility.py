@@ -203,7 +203,7 @@ class Fragility(LognormalCurve, Shown, Saved):
 
         The same records run at every level, so that the deviance is not distributed as chi-square: its p-value by that
         is close to 1 whatever the curve. The bootstrap draws whole records or events from histories of which the curve
-        is true; `dondolo.curves.goodness` describes the method, docs/goodness_of_fit.md its results.
+        is true; `dondolo.curves.goodness` describes the method, docs/reading_a_curve.md its results.
 
         Parameters
         ----------

@@ -167,7 +167,7 @@ class LognormalCurve(Curve):
 
         From the covariance, symmetric in ln theta and in 1/beta, the slope of the probit regression. Where levels reach
         far into the tails, intervals of 95 % contain the beta of exactly lognormal capacities in 92, 93 and 93 % of
-        the studies with 22, 44 and 100 records (docs/uncertainty.md).
+        the studies with 22, 44 and 100 records (docs/reading_a_curve.md).
 
         Parameters
         ----------

@@ -17,7 +17,7 @@ Hazard
     reach from the lower end for the least that it may be there to the upper end for the most; what levels below the
     lowest may add is that of the estimate, for the tail of a drawn curve there says nothing.
 
-docs/uncertainty.md explains what an interval covers: the choice of the records, and of the walls.
+docs/reading_a_curve.md explains what an interval covers: the choice of the records, and of the walls.
 """
 
 from __future__ import annotations

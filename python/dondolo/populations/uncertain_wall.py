@@ -307,7 +307,7 @@ def propagate_uncertainty(
 
     Notes
     -----
-    docs/model_uncertainty.md. Indices come from the sample as it is, by regression on polynomials of the ranks; no
+    docs/reading_a_curve.md. Indices come from the sample as it is, by regression on polynomials of the ranks; no
     walls are run for them alone.
 
     Examples

@@ -170,7 +170,7 @@ def weakest_hinge(
     Notes
     -----
     Medians are fitted to counts, and those of neighbouring heights differ by less than they are known: what the search
-    gives is a range of weak heights rather than one. docs/model_uncertainty.md.
+    gives is a range of weak heights rather than one. docs/reading_a_curve.md.
 
     Examples
     --------

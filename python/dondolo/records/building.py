@@ -67,7 +67,7 @@ class Building:
     The floor moves with u_g'' + sum participation d'', d'' + 2 damping omega d' + omega^2 d = -u_g'' for each mode;
     what the modes leave out of the building moves with the ground. A wall that leans on the building, or spans between
     two of its floors, feels both of its supports (`Wall.support_share`, `Record.under`); level_top equal to level lets
-    it move with its base alone. The building stays linear: docs/floors.md.
+    it move with its base alone. The building stays linear: docs/buildings.md.
 
     Examples
     --------

@@ -327,7 +327,7 @@ class Record(Accelerogram):
         Notes
         -----
         Analyses filter by themselves where a wall stands on a building, and scale by measures of the ground motion;
-        a record of a floor has measures of its own. docs/floors.md.
+        a record of a floor has measures of its own. docs/buildings.md.
 
         Examples
         --------

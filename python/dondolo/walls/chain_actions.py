@@ -27,7 +27,7 @@ class PointLoad:
     force : float
         Its weight [N].
     inertia : {'none', 'vertical', 'both'}
-        Which mass of it the chain moves: docs/loads.md.
+        Which mass of it the chain moves: docs/mechanisms.md.
     held : bool, optional
         Whether something else holds it sideways, such as the floor of a strip: it then counts in the moment of a check
         alone.

@@ -304,7 +304,7 @@ class TwoBlockWall(MasonryWall):
         Vertical load on the top, per metre of wall [N/m], 0 if left out.
     overburden_inertia : float, optional
         Part of that load whose mass the wall lifts: 0 for a force alone (springs, tendons), 1 for a storey of wall
-        above. It decides the result and must be given with a load (docs/loads.md).
+        above. It decides the result and must be given with a load (docs/mechanisms.md).
     eccentricity : float, optional
         Distance of that load from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall
         that folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.

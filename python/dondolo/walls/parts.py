@@ -108,7 +108,7 @@ class Section(Part):
 @part_of_results
 @dataclass(frozen=True, repr=False)
 class Load(Part):
-    """A vertical load that goes with a wall. Its inertia decides the result and must be given: docs/loads.md.
+    """A vertical load that goes with a wall. Its inertia decides the result and must be given: docs/mechanisms.md.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 !> Certified stripes: every history whose estimated error leaves a doubt is run again in 33 digits, and counts with what it
-!> comes to there (docs/certification.md).
+!> comes to there (docs/reading_a_curve.md).
 module dondolo_fragility_certified
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp

@@ -9,7 +9,7 @@
 !>
 !> (Liang and Zeger 1986; Mancl and DeRouen 2001, Biometrics 57, 126-134), the sandwich estimator in which (I - I_g)^-1 s_g
 !> is the change of b if the cluster is left out, to first order. Intervals use Student's t with one degree of freedom
-!> less than there are clusters. docs/uncertainty.md compares it with others.
+!> less than there are clusters. docs/reading_a_curve.md compares it with others.
 module dondolo_fragility_clustered
    use dondolo_base_invariant, only : assert, checked, lies_between
    use dondolo_base_kinds, only : wp

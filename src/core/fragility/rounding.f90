@@ -1,5 +1,5 @@
 !> Histories under records that would be printed by the same digits: how many outcomes hang on digits that no file has
-!> (docs/certification.md).
+!> (docs/reading_a_curve.md).
 module dondolo_fragility_rounding
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp

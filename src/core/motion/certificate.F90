@@ -1,5 +1,5 @@
 !> Certificates: histories that double precision may not decide are rerun in 33 digits until two tolerances agree, and with
-!> the record one unit in the last place stronger and weaker (docs/certification.md).
+!> the record one unit in the last place stronger and weaker (docs/reading_a_curve.md).
 module dondolo_motion_certificate
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_base_error, only : error_type, raise_failure, raise_input

@@ -1,4 +1,4 @@
-!> How sure the outcome of a history is: decided in double precision, in 33 digits, or by neither (docs/certification.md).
+!> How sure the outcome of a history is: decided in double precision, in 33 digits, or by neither (docs/reading_a_curve.md).
 module dondolo_motion_certified
    use dondolo_base_kinds, only : wp
    implicit none
