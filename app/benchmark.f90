@@ -1,6 +1,6 @@
 !> What --benchmark prints: how fast this build is on this machine, and a fingerprint of what it computes.
 module dondolo_benchmark
-   use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, int64, output_unit
+   use, intrinsic :: iso_fortran_env, only : compiler_version, int64, output_unit
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : counted, rounded, to_text
@@ -11,6 +11,7 @@ module dondolo_benchmark
    use dondolo_fragility_study, only : study_type
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since, surroundings
    use dondolo_motion_ensemble, only : name_engines
+   use dondolo_motion_lane_variants, only : engine_options
    use dondolo_motion_work, only : work_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_run_rows, only : run_rows
@@ -206,14 +207,15 @@ contains
       !> How many times over it is done
       integer, intent(in) :: copies
 
-      character(len=:), allocatable :: engines
+      character(len=:), allocatable :: engines, options
 
       call name_engines(work, engines)
+      call engine_options(options)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text//', benchmark', '', &
          & 'processor: '//trim(processor_name()), &
          & 'machine: '//trim(surroundings()), &
          & 'compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)), &
-         & 'options: '//compiler_options(), &
+         & 'options: '//options, &
          & 'engine: '//engines
       write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
          & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &

@@ -1,10 +1,11 @@
 !> What --version --verbose prints: all of the build and the machine that may explain a difference between two.
 module dondolo_build_lines
-   use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, output_unit
+   use, intrinsic :: iso_fortran_env, only : compiler_version, output_unit
    use dondolo_base_kinds, only : wp
    use dondolo_base_lapack, only : lapack_version
    use dondolo_files_version, only : build_commit
    use dondolo_machine, only : processor_name, surroundings
+   use dondolo_motion_lane_variants, only : engine_options
    implicit none
    private
 
@@ -14,9 +15,13 @@ contains
 
    !> Print it
    subroutine print_build()
+
+      character(len=:), allocatable :: options
+
+      call engine_options(options)
       call print_line('commit', build_commit())
       call print_line('compiler', compiler_version())
-      call print_line('options', compiler_options())
+      call print_line('options', options)
       write (output_unit, '(a, i0, a)') 'reals: ', storage_size(1.0_wp), ' bits'
       call print_line('LAPACK', lapack_version())
       call print_line('processor', processor_name())

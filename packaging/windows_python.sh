@@ -40,9 +40,9 @@ with open("pyproject.toml", "rb") as file:
 extras = project["optional-dependencies"]
 print(*project["dependencies"], *(one for name in ("documents", "spreadsheets", "serve") for one in extras[name]), sep="\n")')
 # NumPy, SciPy and Matplotlib as Wine 8 can run them: later ones call what its C library lacks. colorama is what tqdm needs on Windows,
-# which pip does not see from here.
+# which pip does not see from here. pytest and hypothesis are for tests.
 pip download --only-binary :all: --platform win_amd64 --python-version "$version" --implementation cp --dest "$folder/wheels" \
-   "${needed[@]}" colorama pip numpy==2.1.3 scipy==1.15.0 matplotlib==3.9.4
+   "${needed[@]}" colorama hypothesis pip pytest numpy==2.1.3 scipy==1.15.0 matplotlib==3.9.4
 
 rm -rf "$folder/include"
 cp -r "$headers" "$folder/include"

@@ -20,7 +20,7 @@ chmod +x "$exe"
 
 # dondolo WORDS...: sets rc and the files stdout and stderr; a shell of Windows would run dondolo.exe itself.
 dondolo() {
-   timeout 300 $wine "$exe" "$@" >"$work/raw.1" 2>"$work/raw.2"
+   timeout 1500 $wine "$exe" "$@" >"$work/raw.1" 2>"$work/raw.2"
    rc=$?
    tr -d '\r' <"$work/raw.1" >"$work/stdout"
    tr -d '\r' <"$work/raw.2" >"$work/stderr"

@@ -2,7 +2,7 @@
 # The wheel for Windows as an office meets it, by Wine: bash test/windows_wheel.sh WHEEL PYTHON PATH/TO/dondolo
 # PYTHON is the folder of packaging/windows_python.sh. pip of a Python for Windows installs the wheel from a folder without a network;
 # then the quick start, every ready case against the executable of this system, PATH/TO/dondolo, documents, names with accents and
-# blanks, the page in the browser, a pool of processes and Ctrl-C.
+# blanks, the page in the browser, a pool of processes and Ctrl-C; last the fast tests of Python that call no other program.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
@@ -23,8 +23,9 @@ printf '%s\n' "$(basename "$prefix"/python3??.zip)" . 'Lib\site-packages' 'impor
 python3 -m zipfile -e "$given"/wheels/pip-*.whl "$prefix/Lib/site-packages"
 
 # in_wine PROGRAM WORDS...: sets rc, and the file said to what it prints. Python for Windows takes no file of Wine for its standard streams.
+# What hangs is ended in the end, however slow the machine may be.
 in_wine() {
-   echo | timeout 300 $wine "$@" 2>&1 | tr -d '\r' >"$work/said"
+   echo | timeout 1500 $wine "$@" 2>&1 | tr -d '\r' >"$work/said"
    rc=${PIPESTATUS[1]}
 }
 python() { in_wine "$prefix/python.exe" "$@"; }
@@ -221,6 +222,16 @@ PYTHON
 words=("$wine" "$prefix/python.exe" long.py)
 timeout 200 script -qec "${words[*]@Q}" "$work/console" </dev/null >/dev/null
 check "Ctrl-C: a call is interrupted" contains interrupted "in order"
+
+# --- the fast tests of Python that call no other program -----------------------------------------------------------
+
+mapfile -t tests < <(cd "$root/python/tests" && grep -LE 'subprocess|os\.fork|signal|resource|fcntl|playwright|multiprocessing' test_*.py)
+cd "$root/python/tests" || exit 1
+start=$SECONDS
+runs "${#tests[@]} files of tests" -B -m pytest -q -p no:cacheprovider -m "not slow" --color=no "${tests[@]}"
+tail -n 25 "$work/said" | grep -E '^(FAILED|ERROR)|passed|failed'
+echo "tests of the package: $((SECONDS - start)) s"
+
 echo "wheel for Windows: $SECONDS s"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

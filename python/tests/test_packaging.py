@@ -12,8 +12,11 @@ import sys
 import threading
 import tomllib
 import zipfile
+from pathlib import Path
 
 import pytest
+
+from dondolo._fortran import _core
 
 
 @pytest.fixture(scope="session")
@@ -307,3 +310,11 @@ def test_a_step_shows_its_output_only_if_it_fails(root):
     assert (failed.returncode, failed.stderr) == (3, "doing this\nwhy\nfailed: doing this: why\n")
     compiler = step("echo start; echo Error: no such symbol >&2; echo hint: see above; exit 1")
     assert compiler.stderr.splitlines()[-1] == "failed: doing this: Error: no such symbol"
+
+
+def test_no_result_hangs_on_functions_of_vectors(executable):
+    """Those of glibc have other last digits than its functions of scalars, and others by its version."""
+    for file in (executable, _core.__file__):
+        names = Path(file).read_bytes()
+        assert b"\0sincos\0" in names
+        assert b"_ZGV" not in names

@@ -284,9 +284,9 @@ class Stripes(Outcomes, Shown, Saved):
         Notes
         -----
         Of stripes that an interrupted run left only the histories without a status are run. A history is in doubt if
-        its estimated error exceeds 1e-6, or may turn the outcome. It is run at a relative tolerance of 1e-12, 1e-14,
-        1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record one unit in the last
-        place smaller and greater (docs/reading_a_curve.md).
+        twice its estimated error exceeds 1e-6, or may turn the outcome. It is run at a relative tolerance of 1e-12,
+        1e-14, 1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record one unit in the
+        last place smaller and greater (docs/reading_a_curve.md).
 
         Examples
         --------

@@ -42,7 +42,7 @@ contains
       real(wp), intent(out) :: misfit
 
       real(wp), allocatable :: z(:), p(:, :), left(:), squares(:), coefficients(:)
-      real(wp) :: shift(0:highest_degree), length(0:highest_degree), largest, least
+      real(wp) :: shift(0:highest_degree), length(0:highest_degree), largest, least, mean
       integer :: degree, k, n, most
 
       n = size(q)
@@ -60,19 +60,23 @@ contains
       end do
       least = minval(squares)
       degree = findloc(squares <= near*least, .true., dim=1) - 1
+      mean = coefficients(0)/sqrt(real(n, wp))
       associate (nodes => chebyshev_nodes(degree + 1))
-         series = chebyshev_series(value_at(nodes))
+         series = chebyshev_series(change_at(nodes))
       end associate
+      series(1) = series(1) + mean
+      ! What is left of rounding would be multiplied by the square of the degree in the slope.
+      series = series(:max(1, findloc(abs(series) > rounding*largest, .true., dim=1, back=.true.)))
       misfit = 0.0_wp
-      if (largest > 0.0_wp) misfit = maxval(abs(value_at(z) - values))/largest
+      if (largest > 0.0_wp) misfit = maxval(abs(mean + change_at(z) - values))/largest
 
    contains
 
-      !> The polynomial of the degree at some places
-      function value_at(places) result(sums)
+      !> The polynomial of the degree at some places, without its constant: what it changes by has then more digits
+      function change_at(places) result(sums)
          !> Places
          real(wp), intent(in) :: places(:)
-         !> Values
+         !> Changes
          real(wp) :: sums(size(places))
 
          real(wp), dimension(size(places)) :: before, this, next
@@ -80,12 +84,12 @@ contains
 
          before = 0.0_wp
          this = 1.0_wp/sqrt(real(n, wp))
-         sums = coefficients(0)*this
+         sums = 0.0_wp
          do i = 1, degree
             call next_term(places, shift(i - 1), length(i - 1), length(i), before, this, next)
             sums = sums + coefficients(i)*this
          end do
-      end function value_at
+      end function change_at
 
    end subroutine fit_table
 

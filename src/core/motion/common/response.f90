@@ -12,7 +12,7 @@ module dondolo_motion_response
    !> A history whose EDP has a larger estimated error than this is called ill-conditioned
    real(wp), parameter :: largest_sure_error = 1.0e-6_wp
 
-   !> Safety factor on the estimated error where a collapse is at stake; and the estimated error beyond which no outcome
+   !> Safety factor on the estimated error, where a doubt or a collapse is at stake; and the estimated error beyond which no outcome
    !> is certain, since errors have grown to the size of the motion
    real(wp), parameter :: safety = 2.0_wp, saturated = 1.0e-2_wp
 
@@ -125,7 +125,7 @@ contains
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
 
-      is_doubtful = self%is_ill_conditioned() .or. self%is_unsure(edp_limit)
+      is_doubtful = safety*self%edp_error > largest_sure_error .or. self%is_unsure(edp_limit)
    end function is_doubtful
 
    !> Add a row; that after an impact is marked by its caller

@@ -9,10 +9,11 @@ module dondolo_motion_lane_variants
    use dondolo_base_kinds, only : wp
    use dondolo_motion_elastic_filter, only : elastic_filter_type
    use dondolo_motion_lane_constants, only : lane_constants_type
-   use dondolo_motion_lanes, only : simulate_first => simulate_lanes, trace_first => trace_lanes
+   use dondolo_motion_lanes, only : first_options => lane_options, simulate_first => simulate_lanes, trace_first => trace_lanes
 #ifdef DONDOLO_VARIANTS
-   use dondolo_motion_lanes_avx2, only : simulate_avx2 => simulate_lanes, trace_avx2 => trace_lanes
-   use dondolo_motion_lanes_avx512, only : simulate_avx512 => simulate_lanes, trace_avx512 => trace_lanes
+   use dondolo_motion_lanes_avx2, only : avx2_options => lane_options, simulate_avx2 => simulate_lanes, trace_avx2 => trace_lanes
+   use dondolo_motion_lanes_avx512, only : avx512_options => lane_options, simulate_avx512 => simulate_lanes, &
+      & trace_avx512 => trace_lanes
 #endif
    use dondolo_base_text, only : join
    use dondolo_motion_queue, only : queue_type
@@ -24,7 +25,7 @@ module dondolo_motion_lane_variants
    implicit none
    private
 
-   public :: build_variant, check_variant, first_variant, simulate_variant, trace_variant
+   public :: build_variant, check_variant, engine_options, first_variant, simulate_variant, trace_variant
 
    !> Variant that everything but the engine lanes is compiled for
 #ifdef DONDOLO_NATIVE
@@ -76,6 +77,23 @@ contains
       call get_environment_variable('DONDOLO_VARIANT', wish, status=status)
       if (status == 0 .and. any(wish == variant_names(:best))) name = wish
    end function build_variant
+
+   !> Options of the compiler of the variant that the engine lanes runs
+   subroutine engine_options(options)
+      !> The options
+      character(len=:), allocatable, intent(out) :: options
+
+      select case (build_variant())
+#ifdef DONDOLO_VARIANTS
+      case ('avx2')
+         options = avx2_options
+      case ('avx512')
+         options = avx512_options
+#endif
+      case default
+         options = first_options
+      end select
+   end subroutine engine_options
 
    !> Histories of one wall, as long as the queue has some, by a variant
    subroutine simulate_variant(variant, mechanism, constants, records, set, filter, queue, work)

@@ -5,7 +5,7 @@
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
 module dondolo_motion_lanes
    use, intrinsic :: iso_c_binding, only : c_int
-   use, intrinsic :: iso_fortran_env, only : int64
+   use, intrinsic :: iso_fortran_env, only : compiler_options, int64
    use, intrinsic :: omp_lib, only : omp_get_num_threads
    use dondolo_base_interrupt, only : look_for_interrupt
    use dondolo_base_kinds, only : wp
@@ -25,7 +25,10 @@ module dondolo_motion_lanes
    implicit none
    private
 
-   public :: simulate_lanes, trace_lanes
+   public :: lane_options, simulate_lanes, trace_lanes
+
+   !> Options of the compiler that the engine is compiled with
+   character(len=*), parameter :: lane_options = compiler_options()
 
    !> A batch at its beginning. Each is a copy of it in memory of its own: a batch is larger than the stack that a thread may have,
    !> and gfortran takes a copy on the stack to initialise what is allocated without a source
