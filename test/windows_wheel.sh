@@ -228,6 +228,8 @@ check "Ctrl-C: a call is interrupted" contains interrupted "in order"
 mapfile -t tests < <(cd "$root/python/tests" && grep -LE 'subprocess|os\.fork|signal|resource|fcntl|playwright|multiprocessing' test_*.py)
 cd "$root/python/tests" || exit 1
 start=$SECONDS
+runs "pip install pytest" -m pip install --quiet --disable-pip-version-check --no-compile --no-index \
+   --find-links "Z:${place//\//\\}\\wheels" pytest hypothesis
 runs "${#tests[@]} files of tests" -B -m pytest -q -p no:cacheprovider -m "not slow" --color=no "${tests[@]}"
 tail -n 25 "$work/said" | grep -E '^(FAILED|ERROR)|passed|failed'
 echo "tests of the package: $((SECONDS - start)) s"
