@@ -224,9 +224,7 @@ def test_python_sources(root):
     listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))
     package = root / "python/dondolo"
     data = [
-        file
-        for suffix in ("py", "pyi", "css", "html", "js", "svg", "typed")
-        for file in package.glob(f"**/*.{suffix}")
+        file for suffix in ("py", "pyi", "css", "html", "js", "svg", "typed") for file in package.glob(f"**/*.{suffix}")
     ]
     there = {f"dondolo/{file.relative_to(package)}" for file in data}
     assert listed == there

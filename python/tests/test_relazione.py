@@ -1049,7 +1049,7 @@ def test_what_cannot_be_printed_is_refused_first(both, tmp_path, monkeypatch):
     with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
         dd.calculation_report(both, tmp_path / "a.pdf")
     assert main(["relazione", "there_is_none", "-o", str(tmp_path / "b.pdf")]) == 1
-    monkeypatch.setattr("dondolo.reporting.page._run", lambda *rest: pytest.fail("has begun"))
+    monkeypatch.setattr("dondolo.reporting.page.gather", lambda *rest: pytest.fail("has begun"))
     with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
         dd.report(both[0], tmp_path / "a.pdf")
 

@@ -107,7 +107,7 @@ def test_decimal_marks_are_those_of_the_language(pairs):
 
 def test_word_needs_python_docx(stripes, monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "docx", None)
-    monkeypatch.setattr("dondolo.reporting.page._run", lambda *rest: pytest.fail("has begun"))
+    monkeypatch.setattr("dondolo.reporting.page.gather", lambda *rest: pytest.fail("has begun"))
     with pytest.raises(dd.errors.DondoloError, match="python-docx is not installed"):
         dd.report(stripes, tmp_path / "report.docx")
     assert not list(tmp_path.iterdir())

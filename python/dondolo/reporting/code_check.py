@@ -45,7 +45,8 @@ _KINEMATIC = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonl
 def code_check(check: CodeCheck, curve: Fragility | None, language: Language) -> list[Block]:
     """Tables of the verdicts and of the sheet, and the lines of the check on the curve."""
     is_drawn = curve is not None and curve.has_fit and curve.im == "pga" and check.verified is not None
-    chances = check.probabilities(curve) if curve is not None and is_drawn else {}
+    drawn = curve if is_drawn else None
+    chances = {} if drawn is None else check.probabilities(drawn)
     on_checks = say(
         "The wall is verified by the kinematic formulas of Circolare 7/2019 to NTC 2018, C8.7.1.2.1, and by its"
         " criterion for time histories, C8.7.1.2.1.9. A kinematic check is a verification by formula; the fragility"
@@ -65,7 +66,7 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
         captioned(_beside(check, curve, with_chances=bool(chances)), caption),
         *_histories(check),
     ]
-    if is_drawn:
+    if drawn is not None:
         words = "; ".join(
             f"{check_in_words(*key)} {decimal(probability(value).text)}"
             for key, value in chances.items()
@@ -76,7 +77,7 @@ def code_check(check: CodeCheck, curve: Fragility | None, language: Language) ->
             "The checks on the fragility curve: the capacity of the wall by each formula, the peak acceleration of the"
             " site, and the probability of collapse at each."
         )
-        blocks.append(Picture(partial(check.plot, curve=curve), caption, alt))
+        blocks.append(Picture(partial(check.plot, curve=drawn), caption, alt))
     if _site(check, "SLD") >= _site(check, "SLC"):
         blocks.append(
             paragraph(

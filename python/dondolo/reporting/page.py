@@ -1,23 +1,19 @@
-"""The report of a run: figures, tables, inputs, checks and versions, as chapters of blocks."""
+"""The chapters of a report on a run: figures, tables, inputs, checks and versions, as blocks."""
 
 from __future__ import annotations
 
-import os
 from datetime import datetime
 from typing import Any
 
 from dondolo._base.arguments import argument_error, instance_of
-from dondolo._base.files import as_file
 from dondolo._base.wording import say
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.origins import derived_mark
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
-from dondolo.exchange.results import Results
 from dondolo.hazard.hazard import HazardCurve
 from dondolo.populations.typology import Typology
-from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.reporting import designs, facade, reading, typology, uncertain, wall
 from dondolo.reporting.beginning import judgement, lead
 from dondolo.reporting.blocks import Block, Facts, Heading
@@ -33,70 +29,12 @@ from dondolo.reporting.ties import ties
 from dondolo.reporting.walls import DRAWN, walls
 from dondolo.reporting.words import warning
 from dondolo.reporting.writers.imprint import Imprint
-from dondolo.reporting.writers.writing import SUFFIXES, check_target, undisturbed, write
 
 # Chapters: an anchor, a title, and blocks
 _Chapters = list[tuple[str, str, list[Block]]]
 
 
-def report(
-    results: Results | Typology | UncertainWall | Stripes | Response,
-    path: str | os.PathLike[str],
-    *,
-    hazard: HazardCurve | None = None,
-    check: CodeCheck | None = None,
-    title: str | None = None,
-    lang: str | None = None,
-) -> None:
-    """Write a report of a run: one file that appears whole or not at all, HTML that opens offline, Word, or PDF on A4.
-
-    Parameters
-    ----------
-    results : Results, Typology, UncertainWall, Stripes or Response
-        What `read_results`, `run_case`, `typology`, `propagate_uncertainty`, `multiple_stripe` or `simulate`
-        gave. The results of a case know most of a run.
-    path : path
-        The file, ``*.docx``, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. Word needs python-docx, PDF
-        Chromium or WeasyPrint. An earlier report is replaced, any other file is not.
-    hazard : HazardCurve, optional
-        Of the site: adds the annual frequency of collapse with its bounds and deaggregation.
-    check : CodeCheck, optional
-        Adds the calculation sheet of the check of the wall, and its lines on the curve; files bring their own.
-    title : str, optional
-        Title of the page; that of the case if left out.
-    lang : {'en', 'it'}, optional
-        Language; that of the environment variable ``DONDOLO_LANG`` if left out, or English. Names, identifiers of the
-        case and messages of the library are not translated.
-
-    Raises
-    ------
-    InputError
-        Results that a report cannot show; a hazard curve of another intensity measure; another suffix; an existing file
-        that is not a report.
-    DondoloError
-        The file cannot be written; a program that the format needs is missing; with a hazard curve, there is no
-        fragility curve.
-
-    Notes
-    -----
-    Warnings of the run and of the fits are in the report, and are not issued again.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> (record,) = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow")
-    >>> response = dd.simulate(dd.OneSidedWall(height=1.5, thickness=0.25), record, scale=2.0)
-    >>> dd.report(response, "report.html", title="Parapet")
-    """
-    target = as_file("path", path, *SUFFIXES)
-    check_target(target)
-    language = Language(lang)
-    with language.in_force(), undisturbed():
-        run = _run(results, hazard, check, title)
-        write(target, _blocks(run, hazard, language), _imprint(run, language))
-
-
-def _run(results: Any, hazard: HazardCurve | None, check: CodeCheck | None, title: str | None) -> Run:
+def gather(results: Any, hazard: HazardCurve | None, check: CodeCheck | None, title: str | None) -> Run:
     """What is known of the run, and whether the rest is of it."""
     run = run_of(results)
     if title is not None:
@@ -128,7 +66,7 @@ def _check_ground(run: Run) -> None:
         )
 
 
-def _imprint(run: Run, language: Language) -> Imprint:
+def imprint_of(run: Run, language: Language) -> Imprint:
     """What the report says of itself."""
     colophon = say(
         "Report made by dondolo {version} on {made}. The page holds all it needs: it can be kept, sent and printed."
@@ -141,7 +79,7 @@ def _imprint(run: Run, language: Language) -> Imprint:
     return Imprint(language, mark, run.title, kicker=kicker, colophon=colophon)
 
 
-def _blocks(run: Run, hazard: HazardCurve | None, language: Language) -> list[Block]:
+def blocks_of(run: Run, hazard: HazardCurve | None, language: Language) -> list[Block]:
     """The report as blocks."""
     blocks: list[Block] = [Heading(run.title, 0), paragraph(lead(run), look="lead")]
     for anchor, title, chapter in _chapters(run, hazard, language):

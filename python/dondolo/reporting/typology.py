@@ -89,8 +89,8 @@ def summary(people: Typology) -> list[Block]:
     parts: list[Any] = [
         say("Of the walls, by weight, these shares are expected to collapse for a given {measure}:", measure=measure)
     ]
-    for share, intensity in shares:
-        parts += [", " if len(parts) > 1 else " ", pieces("{share} at {level}", share=share, level=intensity)]
+    for collapsed, intensity in shares:
+        parts += [", " if len(parts) > 1 else " ", pieces("{share} at {level}", share=collapsed, level=intensity)]
     return [Cards(tuple(cards)), Paragraph((*parts, "."))]
 
 
