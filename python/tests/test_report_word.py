@@ -75,7 +75,9 @@ def test_tables_are_those_of_the_page(kind, pairs):
 @pytest.mark.parametrize("kind", KINDS)
 def test_chapters_sentences_and_figures_are_those_of_the_page(kind, pairs):
     page, file = pairs[kind]
-    body = page.partition("<body>")[2]
+    # The foot of each has the minute in which it was written.
+    body = page.partition("<body>")[2].partition("<footer>")[0]
+    assert f"dondolo {dd.__version__}" in file.paragraphs[-1].text
     heads = [one.text.partition(". ")[2] for one in file.paragraphs if one.style.name == "Heading 1"]
     assert heads == [html.unescape(one) for one in re.findall("<h2>(.*?)</h2>", body)]
     folded = [one.text for one in file.paragraphs if one.style.name == "Heading 3"]
