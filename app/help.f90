@@ -27,7 +27,7 @@ module dondolo_help
       & '', &
       & 'Commands of the Python package, if it is installed (dondolo plot --help prints the options of plot):', &
       & '   dondolo plot PREFIX          draw the figures of a run from its result files', &
-      & '   dondolo report PREFIX        write a report of a run: one HTML file; with --pdf, PDF', &
+      & '   dondolo report PREFIX        write a report of a run, in English or Italian, as HTML, Word or PDF', &
       & '   dondolo relazione PREFIX ... write a calculation report, in Italian or English, as Word, HTML or PDF', &
       & '   dondolo xlsx PREFIX          write the tables of a run into a workbook of Excel or LibreOffice', &
       & '   dondolo nrml PREFIX          write the curves of a run for OpenQuake', &

@@ -20,7 +20,7 @@ def problems(wheel: Path) -> list[str]:
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         metadata = next(archive.read(name).decode() for name in names if name.endswith(".dist-info/METADATA"))
-    sources = re.findall(r"'(dondolo/[^']+\.(?:py|pyi|j2|css|typed))'", (ROOT / "python/meson.build").read_text())
+    sources = re.findall(r"'(dondolo/[^']+\.(?:py|pyi|css|typed))'", (ROOT / "python/meson.build").read_text())
     examples = [
         f".data/data/share/dondolo/{path.relative_to(ROOT / 'data')}"
         for path in (ROOT / "data").glob("**/*")

@@ -1,7 +1,7 @@
 """Mutation checks of the statistics: python test/mutations.py [--quick] [WORD]...
 
-Each edit makes one formula, one unit or one word wrong, and the test named with it must then fail. Python, templates
-and JavaScript are edited in a copy of the installed package, and the Italian catalogue compiled into it. Of a Fortran
+Each edit makes one formula, one unit or one word wrong, and the test named with it must then fail. Python and
+JavaScript are edited in a copy of the installed package, and the Italian catalogue compiled into it. Of a Fortran
 source a copy is edited, compiled against the modules of the build and linked before its library: into the Fortran test,
 or for a test of pytest into the extension module of a copied package.
 Given words, check only the edits that contain all of them; with --quick, only the first of each file.
@@ -718,15 +718,39 @@ EDITS = [
         in_library=True,
     ),
     Edit(
+        "Word has the head of a column over the next",
+        "heads = tuple(column.head for column in shown.columns)",
+        "heads = tuple(column.head for column in (*shown.columns[1:], shown.columns[0]))",
+        "test_report_word.py::test_tables_are_those_of_the_page",
+    ),
+    Edit(
+        "what a page folds up is left out of Word",
+        "yield from unfolded(block.blocks)",
+        "yield from ()",
+        "test_report_word.py::test_tables_are_those_of_the_page",
+    ),
+    Edit(
+        "a page has values of a table one row lower",
+        "for place, (first, *cells) in enumerate(table.rows)",
+        "for place, (first, *cells) in enumerate((*list(table.rows)[-1:], *list(table.rows)[:-1]))",
+        "test_report.py::test_numbers_are_those_of_the_results",
+    ),
+    Edit(
+        "texts of a page are markup",
+        "return escape(piece)\n",
+        "return piece\n",
+        "test_report.py::test_texts_are_escaped",
+    ),
+    Edit(
         "ends of the frequency above the hazard are exchanged",
-        "low=piece(it.above[0]), high=piece(it.above[1])",
-        "low=piece(it.above[1]), high=piece(it.above[0])",
+        "low=above[0],\n        high=above[1],",
+        "low=above[1],\n        high=above[0],",
         "test_shown_truths.py::test_ranges_of_reports_ascend",
     ),
     Edit(
         "ends of the hazard are exchanged in a report",
-        "first=it.levels[0], last=it.levels[1]",
-        "first=it.levels[1], last=it.levels[0]",
+        "say(words, first=first, last=last)",
+        "say(words, first=last, last=first)",
         "test_shown_truths.py::test_ranges_of_reports_ascend",
     ),
     Edit(
@@ -864,7 +888,7 @@ def is_translation(edit: Edit) -> bool:
 
 def places(edit: Edit, package: Path) -> list[str]:
     """Files of the package, or of the library, in which the text of an edit occurs, once for each occurrence."""
-    folder, suffixes = (ROOT / "src", (".f90",)) if is_fortran(edit) else (package, (".py", ".js", ".j2"))
+    folder, suffixes = (ROOT / "src", (".f90",)) if is_fortran(edit) else (package, (".py", ".js"))
     if is_translation(edit):
         folder, suffixes = CATALOGUES, (".po",)
     sources = texts_in(folder, suffixes)

@@ -29,4 +29,3 @@ class PyDondolo(PythonPackage):
     depends_on("py-scipy@1.15:", type="run")
     depends_on("py-matplotlib@3.9:", type="run")
     depends_on("py-tqdm@4.64:", type="run")
-    depends_on("py-jinja2@3.1:", type="run")

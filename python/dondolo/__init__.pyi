@@ -43,9 +43,9 @@ from dondolo.records.record_set import RecordSet as RecordSet
 from dondolo.records.synthetic import synthetic_records as synthetic_records
 from dondolo.records.target import TargetSpectrum as TargetSpectrum
 from dondolo.reporting.figure_style import style as style
-from dondolo.reporting.page import report as report
 from dondolo.reporting.relazione.writing import calculation_report as calculation_report
 from dondolo.reporting.workbook import write_workbook as write_workbook
+from dondolo.reporting.writing import report as report
 from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
 from dondolo.walls.chain_actions import PointLoad as PointLoad

@@ -26,7 +26,7 @@ from dondolo.figures.saving import mark_end, save_figure
 from dondolo.hazard.openquake import is_of_openquake
 from dondolo.records.catalogues import build_catalogue
 from dondolo.reporting.language import Language
-from dondolo.reporting.pdf import check_printer
+from dondolo.reporting.writers.pdf import check_printer
 
 _VERSION = f"dondolo {dd.__version__} ({dd.Solver.variant()})"
 # An animation: frames per second, and the longest film [s]
@@ -143,12 +143,18 @@ def _parser() -> argparse.ArgumentParser:
     plot.set_defaults(run=_plot)
     report = commands.add_parser(
         "report",
-        help="write a report of a run: one HTML file, or PDF",
+        help="write a report of a run: Word, HTML or PDF",
         description="Write a report of a run from its CSV files, those of the executable or of "
-        "Typology.write_results: one HTML file with figures, tables, inputs, checks and versions, which opens offline.",
+        "Typology.write_results: figures, tables, inputs, checks and versions in one file, HTML that opens offline, "
+        "Word or PDF.",
     )
     report.add_argument("prefix", help="prefix of the result files, for example out/parapet", metavar="PREFIX")
-    report.add_argument("-o", "--output", help="path of the report, PREFIX_report.html by default", metavar="FILE")
+    report.add_argument(
+        "-o",
+        "--output",
+        help="path of the report, .docx, .html or .pdf; PREFIX_report.html by default",
+        metavar="FILE",
+    )
     report.add_argument(
         "--hazard",
         help="hazard curve of the site, for the annual frequency of collapse: a CSV table of the levels, titled with "

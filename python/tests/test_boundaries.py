@@ -17,8 +17,11 @@ import dondolo as dd
 from dondolo._base.shown import html_of
 from dondolo._storage.run_file import described
 from dondolo.reporting import content
+from dondolo.reporting.blocks import Heading
 from dondolo.reporting.language import Language
-from dondolo.reporting.page import environment
+from dondolo.reporting.parts import captioned
+from dondolo.reporting.writers.imprint import Imprint
+from dondolo.reporting.writers.web import page as page_of
 
 SAMPLES = "0.0\n1.5\n-2.0\n0.5\n"
 
@@ -265,7 +268,8 @@ def texts_of(page):
 def in_html(name, _, __):
     assert texts_of(html_of(name, [(name, name)])) == [name] * 3
     table = content.Table.of({"wall": [name]})
-    page = texts_of(environment(Language("en")).get_template("macros.html.j2").module.table(table, name))
+    blocks = [Heading(name, 0), captioned(table, name)]
+    page = texts_of(page_of(blocks, Imprint(Language("en"), name, name), formulas=True))
     assert page.count(name) >= 2
     assert None not in page
 

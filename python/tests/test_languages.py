@@ -59,20 +59,13 @@ NAMES = [
 
 
 def marked(package):
-    """Sentences of the sources and of the templates, as catalogues have them."""
-    from jinja2 import Environment, nodes
-
+    """Sentences of the sources, as catalogues have them."""
     found = set()
     for source in package.rglob("*.py"):
         for call in ast.walk(ast.parse(source.read_text())):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") in ("_", "say", "pieces") and call.args:
                 sentence = getattr(call.args[0], "value", None)
                 found |= {key(sentence)} if isinstance(sentence, str) else set()
-    for template in (package / "reporting/templates").glob("*.j2"):
-        for call in Environment().parse(template.read_text()).find_all(nodes.Call):
-            # Indices of symbols are said by their names.
-            if getattr(call.node, "name", "") == "say" and isinstance(call.args[0], nodes.Const):
-                found.add(key(call.args[0].value))
     return found
 
 
@@ -142,7 +135,7 @@ def test_what_has_a_name_is_translated(root, catalogue):
 ALIKE = {"certificate", "converge", "decade", "media", "modulo", "precede", "prime"}
 QUOTED = {"__main__.py": {"calcolo", "completare"}, "writing.py": {"calcolo"}, "hazard_table.py": {"anno"},
           "references.f90": {"delle"}}  # fmt: skip
-SUFFIXES = {".py", ".pyi", ".js", ".html", ".j2", ".f90"}
+SUFFIXES = {".py", ".pyi", ".js", ".html", ".f90"}
 WORD = re.compile("[a-zà-ù]{4,}")
 
 
@@ -250,7 +243,7 @@ CASES = [
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory, executable, root):
-    """Reports of ready cases, which between them have all templates, in both languages."""
+    """Reports of ready cases, which between them have all chapters, in both languages."""
     folder = tmp_path_factory.mktemp("languages")
     levels = np.array([0.05, 0.1, 0.2, 0.4, 0.8, 1.6])
     hazard = dd.HazardCurve(levels, 1e-4 * levels**-2.5, im="pga", fractiles={0.16: 5e-5 * levels**-2.5})

@@ -224,9 +224,7 @@ def test_python_sources(root):
     listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))
     package = root / "python/dondolo"
     data = [
-        file
-        for suffix in ("py", "pyi", "html.j2", "css", "html", "js", "svg", "typed")
-        for file in package.glob(f"**/*.{suffix}")
+        file for suffix in ("py", "pyi", "css", "html", "js", "svg", "typed") for file in package.glob(f"**/*.{suffix}")
     ]
     there = {f"dondolo/{file.relative_to(package)}" for file in data}
     assert listed == there
@@ -446,7 +444,7 @@ import dondolo
 print_costs()
 names = [getattr(of, name) for of in (dondolo, dondolo.results) for name in of.__all__]
 print_costs()
-heavy = ("scipy", "pandas", "matplotlib", "jinja2", "tqdm", "concurrent.futures")
+heavy = ("scipy", "pandas", "matplotlib", "tqdm", "concurrent.futures")
 print(*(name for name in heavy if name in sys.modules))
 """
 

@@ -87,9 +87,9 @@ def test_the_report_of_records_of_their_own(sets, parapet, tmp_path):
     dd.report(some, page)
     text = re.sub(r"<[^>]+>", " ", page.read_text(encoding="utf-8"))
     assert "nan" not in text.lower().split()
-    column = wall.numbers(some, [some.fit()])["levels"]
-    heads = [one.head for one in column.columns]
-    cells = [row[heads.index("median EDP")] for row in column.all_rows]
+    *_states, levels = wall.numbers(some, [some.fit()])
+    heads = [one.head for one in levels.table.columns]
+    cells = [row[heads.index("median EDP")] for row in levels.table.rows]
     assert [one.text for one in cells] == [f"{value:.3g}" for value in medians]
     assert some.edp_error is not None
     largest = f"{float(some.edp_error[some.ran].max()):.3g}"

@@ -947,7 +947,7 @@ def test_pages_of_word_are_an_office_s(brittle):
 def test_columns_have_room_for_their_words(brittle):
     """No word is parted: each column of a table of Word is as wide as its longest one in bold Arial (Helvetica)."""
     docx = pytest.importorskip("docx")
-    from dondolo.reporting.relazione.word import parts_of_text
+    from dondolo.reporting.writers.word_tables import parts_of_text
 
     place, results = brittle
     metrics = (Path(matplotlib.get_data_path()) / "fonts/pdfcorefonts/Helvetica-Bold.afm").read_text()
@@ -1043,13 +1043,13 @@ def test_command(folder, executable, root, tmp_path):
 
 def test_what_cannot_be_printed_is_refused_first(both, tmp_path, monkeypatch):
     """Before chapters are written and drawn."""
-    monkeypatch.setattr("dondolo.reporting.pdf._browser", lambda: None)
+    monkeypatch.setattr("dondolo.reporting.writers.pdf._browser", lambda: None)
     monkeypatch.setitem(sys.modules, "weasyprint", None)
     monkeypatch.setattr("dondolo.reporting.relazione.subjects.subjects_of", lambda found: pytest.fail("has begun"))
     with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
         dd.calculation_report(both, tmp_path / "a.pdf")
     assert main(["relazione", "there_is_none", "-o", str(tmp_path / "b.pdf")]) == 1
-    monkeypatch.setattr("dondolo.reporting.page._page", lambda *rest: pytest.fail("has begun"))
+    monkeypatch.setattr("dondolo.reporting.page.gather", lambda *rest: pytest.fail("has begun"))
     with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
         dd.report(both[0], tmp_path / "a.pdf")
 

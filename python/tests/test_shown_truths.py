@@ -23,12 +23,13 @@ import dondolo as dd
 from dondolo.checks.plots import check_name
 from dondolo.reporting import columns, numerals, run, statuses, typology, words
 from dondolo.reporting import wall as wall_facts
+from dondolo.reporting.blocks import CaptionedTable, Cards, Paragraph
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
 from dondolo.reporting.relazione import outcome, project, site_grid
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.subjects import Subject, Subjects
-from dondolo.reporting.risk import risk_facts
+from dondolo.reporting.risk import risk_chapter
 from dondolo.reporting.units import CENTIMETRES, UNITS
 from dondolo.reporting.wall import numbers as numbers_of_a_wall
 from dondolo.reporting.wall import summary
@@ -379,6 +380,16 @@ def uneven(few, wall):
     return dd.multiple_stripe(wall, {0.45: few[:4], 0.7: few, 1.1: few[:7]}, [0.45, 0.7, 1.1], progress=False)
 
 
+def cards_of(blocks):
+    """Cards by their names: values, and what is said of them."""
+    (cards,) = (one for one in blocks if isinstance(one, Cards))
+    return {texts(name): (texts(value), texts(note)) for name, value, note in cards.entries}
+
+
+def tables_in(blocks):
+    return [one.table for one in blocks if isinstance(one, CaptionedTable)]
+
+
 def texts(pieces):
     if isinstance(pieces, tuple):
         return "".join(map(texts, pieces))
@@ -392,18 +403,18 @@ def texts(pieces):
 def test_shares_of_a_wall_are_of_the_histories_that_ran(uneven):
     """Not of the cells of a table; medians are those of the levels."""
     assert not uneven.ran.all()
-    cards = {texts(name): (texts(value), texts(note)) for name, value, note in summary(uneven, uneven.fit())["cards"]}
+    cards = cards_of(summary(uneven, uneven.fit()))
     assert cards["histories"][0] == str(int(uneven.histories.sum()))
     share = 100.0 * uneven.collapses.sum() / uneven.histories.sum()
     assert float(cards["collapses"][1].partition(" %")[0]) == pytest.approx(share, rel=5e-3)
-    table = numbers_of_a_wall(uneven, [uneven.fit()])["levels"]
+    table = tables_in(numbers_of_a_wall(uneven, [uneven.fit()]))[-1]
     cells = {texts(column.head): [texts(one) for one in column.cells] for column in table.columns}
     assert [float(one) for one in cells["fraction"]] == pytest.approx(uneven.collapses / uneven.histories, abs=1e-4)
 
 
 def test_medians_of_stripes_are_medians(few, wall):
     stripes = dd.multiple_stripe(wall, few, [0.3, 0.6], progress=False)
-    table = numbers_of_a_wall(stripes, [stripes.fit()])["levels"]
+    table = tables_in(numbers_of_a_wall(stripes, [stripes.fit()]))[-1]
     (cells,) = [column.cells for column in table.columns if column.head == "median EDP"]
     assert [float(one.text) for one in cells] == pytest.approx(
         [statistics.median(row) for row in stripes.edp], rel=5e-3
@@ -423,7 +434,7 @@ def test_a_hazard_that_is_too_short_is_told_from_one_per_cent_on(few, wall):
             low, high = risk.bounds
             assert risk.return_period_bounds == (1.0 / high, 1.0 / low)
             assert risk.return_period_bounds[0] <= risk.return_period_bounds[1]
-            _facts, found = risk_facts(run.run_of(stripes), hazard, Language("en"))
+            _blocks, found = risk_chapter(run.run_of(stripes), hazard, Language("en"))
             told = [one for one in found if "too short" in one]
             differs = high / low - 1.0
             if differs > 0.0102:
@@ -724,13 +735,13 @@ def numbers_in(text):
 def test_what_is_said_of_a_wall_is_of_its_curve(judged):
     """Cards and intervals, each beside what the library has."""
     stripes, curve, _hazard = judged
-    cards = {texts(name): (texts(value), texts(note)) for name, value, note in summary(stripes, curve)["cards"]}
+    cards = cards_of(summary(stripes, curve))
     for name, value, error in (("median", curve.theta, curve.se_ln_theta), ("dispersion", curve.beta, curve.se_beta)):
         (found,) = [card for head, card in cards.items() if head.startswith(name)]
         assert [numbers_in(part)[-1 if place else 0] for place, part in enumerate(found)] == pytest.approx(
             [value, error], rel=5e-3
         )
-    intervals = wall_facts.uncertainty(curve)["intervals"]
+    (intervals,) = tables_in(wall_facts.uncertainty(curve))
     for name, letter in (("theta", "θ"), ("beta", "β")):
         for place, end in enumerate(("from", "to")):
             shown = column_of(intervals, f"{letter} {end}")
@@ -739,15 +750,17 @@ def test_what_is_said_of_a_wall_is_of_its_curve(judged):
 
 def test_what_is_said_of_the_risk_is_the_hazard_s(judged):
     stripes, curve, hazard = judged
-    facts, _found = risk_facts(run.run_of(stripes), hazard, Language("en"))
-    table, risk = facts["deaggregation"], curve.risk(hazard)
+    blocks, _found = risk_chapter(run.run_of(stripes), hazard, Language("en"))
+    table, risk = tables_in(blocks)[-1], curve.risk(hazard)
     ends = [[to_number(one) for one in column_of(table, head)] for head in ("pga from [g]", "to [g]")]
     assert ends[0] == pytest.approx(hazard.levels[:-1], rel=5e-4)
     assert ends[1] == pytest.approx(hazard.levels[1:], rel=5e-4)
     exceeded = [read(one)[0] for one in next(one.cells for one in table.columns if "exceeded" in texts(one.head))]
     assert exceeded == pytest.approx(hazard.annual_frequency[:-1], rel=5e-3)
-    for name in ("above", "below"):
-        assert [read(one)[0] for one in facts[name]] == pytest.approx(getattr(risk, name), rel=5e-3)
+    *_more, on_tails = (one for one in blocks if isinstance(one, Paragraph))
+    (tails,) = on_tails.pieces
+    shown = [read(one)[0] for one in tails if isinstance(one, numerals.Numeral)]
+    assert shown == pytest.approx([*risk.above, risk.below[1]], rel=5e-3)
 
 
 NUMBER = r"\d+(?:\.\d+)?(?: \N{MULTIPLICATION SIGN} 10\N{MINUS SIGN}?\d+)?"
@@ -797,20 +810,22 @@ def test_histories_that_are_not_computable_widen_bounds(judged):
     ends = bounded.exceedance_bounds(1.0)
     assert np.any(ends[0] < ends[1])
     told = wall_facts.certificates(bounded, [curve], "separate")
-    (cells,) = [one.cells for one in told["levels"].columns if "fraction" in texts(one.head)]
+    medians, levels = tables_in(told)
+    (cells,) = [one.cells for one in levels.columns if "fraction" in texts(one.head)]
     for cell, low, high, n in zip(cells, *ends, bounded.histories, strict=True):
         assert numbers_in(texts(cell)) == pytest.approx([low / n] if low == high else [low / n, high / n], abs=1e-4)
     ((low, high),) = bounded.state_bounds([1.0], states="separate")
     for name, value in (("lowest", low), ("greatest", high)):
-        (cells,) = [one.cells for one in told["medians"].columns if name in texts(one.head)]
+        (cells,) = [one.cells for one in medians.columns if name in texts(one.head)]
         assert to_number(texts(cells[0])) == pytest.approx(value, rel=5e-4)
 
 
 def test_shares_of_a_population_are_those_at_their_levels(population):
-    facts = typology.summary(population)
-    assert len(facts["shares"]) > 1
+    *_cards, told = typology.summary(population)
+    shares = [part[:3:2] for part in told.pieces if isinstance(part, tuple)]
+    assert len(shares) > 1
     curve = dict(zip((f"{level:g}" for level in population.levels), population["all"].mean_curve, strict=True))
-    for share, level in facts["shares"]:
+    for share, level in shares:
         expected = curve[texts(level).removesuffix(" g")]
         assert texts(share) == texts(numerals.percent(expected))
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import dondolo as dd
-from dondolo.reporting.code_check import verdict
 from dondolo.reporting.language import Language
+from dondolo.reporting.verdict import verdict
 from dondolo.reporting.words import BENDING
 from dondolo.reporting.words import warning as in_words
 

@@ -165,10 +165,10 @@ def test_broken_ties_of_populations(run, tmp_path, facade, record):
     assert not (tmp_path / "bare_ties.csv").exists()
     bare = dd.read_results(tmp_path / "bare").typology
     assert [one.shape for one in bare.broken_ties] == [(len(levels), 0)]
-    assert told(bare) is None
-    of_run, of_files = (told(one)["tables"] for one in (curves, read.typology))
+    assert told(bare) == []
+    of_run, of_files = (told(one) for one in (curves, read.typology))
     assert of_run == of_files
-    assert [len(table.columns[0].cells) for _, table in of_run] == [sum(one.broken.shape[1] for one in curves.ties)] * 2
+    assert [one.table.total for one in of_run[1:]] == [sum(one.broken.shape[1] for one in curves.ties)] * 2
     dd.report(read.typology, tmp_path / "report.html")
     assert "Share of the histories that break each tie, levels" in (tmp_path / "report.html").read_text()
     for mine, theirs in zip(read.typology.broken_ties, curves.broken_ties, strict=True):
@@ -196,9 +196,10 @@ def test_what_the_executable_says(run, tmp_path, facade, record):
     results = dd.read_results(tmp_path / "out")
     assert results.stripes.broken_ties.tolist() == [[0.0], [1.0]]
     (tie,) = results.stripes.wall.ties
-    for (_, table), shares in zip(told(results.stripes)["tables"], (["100 %", "100 %"], ["0 %", "100 %"]), strict=True):
-        assert table.columns[0].cells == [f"facade, tie 1 at {tie.height:g} m"]
-        assert [column.cells[0].text + column.cells[0].unit for column in table.columns[1:]] == shares
+    _on_ties, *tables = told(results.stripes)
+    for one, shares in zip(tables, (["100 %", "100 %"], ["0 %", "100 %"]), strict=True):
+        assert one.table.columns[0].cells == [f"facade, tie 1 at {tie.height:g} m"]
+        assert [column.cells[0].text + column.cells[0].unit for column in one.table.columns[1:]] == shares
     case.write_text(
         f"&job task = 'history' output = '{tmp_path}/one' /\n&wall {wall} /\n&records catalogue = 'records.csv' /\n"
         "&history record = 1, scale = 1.0 /\n"

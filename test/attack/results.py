@@ -76,7 +76,7 @@ def unsound(value: Any) -> str:
 
 def read_template(path: str) -> str:
     """Open a template of Word; what comes along must run nothing and name no other file."""
-    from dondolo.reporting.relazione.template import open_template
+    from dondolo.reporting.writers.template import open_template
 
     made = io.BytesIO()
     open_template(path)[0].save(made)

@@ -1,6 +1,6 @@
-"""Reports: facts are gathered in Python, and set by the Jinja templates in the folder ``templates``.
+"""Documents: facts of results become blocks, which writers set as HTML, PDF or Word.
 
-`page` chooses the chapters of a run. `run` gathers what is known of it; `typology`, `wall`, `risk` and `inputs` make
-the facts of its chapters, of the pieces in `content` (symbols, tables, figures) and `numerals`. `columns` has the head
-and the digits of each column by its name. No module writes HTML, and no template computes.
+`page` chooses the chapters of a report, `relazione` has those of a calculation report. Chapters are functions that give
+`blocks`, made of `content` (symbols, tables, sentences in pieces) and `numerals`; `columns` has the head and the digits
+of each column by its name, and `run` what is known of a run. Only `writers` knows HTML or Word, and computes nothing.
 """

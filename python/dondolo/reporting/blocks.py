@@ -1,9 +1,9 @@
-"""What a calculation report is made of: blocks, of which HTML, PDF and Word are three views."""
+"""What documents are made of: blocks, of which HTML, PDF and Word are three views."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -42,17 +42,39 @@ class Field:
 
 @dataclass(frozen=True)
 class Heading:
-    """The title of a chapter (level 1) or of a part of one (2); level 0 is that of the document."""
+    """The title of a chapter (level 1), of a part of one (2) or of a part of that (3); level 0 is that of the document.
+
+    A chapter with an anchor is a section of its page, and can be linked to.
+    """
 
     text: str
     level: int = 1
+    anchor: str = ""
 
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Pieces in a row."""
+    """Pieces in a row; 'lead' is the first of a document, in a line what it is, and a 'footnote' is small."""
 
     pieces: tuple[Any, ...]
+    look: Literal["", "lead", "footnote"] = ""
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """A list of sentences."""
+
+    sentences: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Aside:
+    """A title and a list that are set apart: a verdict, whose colour is its tone, or warnings."""
+
+    kind: Literal["verdict", "warnings"]
+    tone: Literal["", "failed", "doubt", "fine"]
+    title: str
+    sentences: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -68,6 +90,13 @@ class Facts:
     """Names and what they are."""
 
     pairs: tuple[tuple[Piece, Any], ...]
+
+
+@dataclass(frozen=True)
+class Cards:
+    """The main numbers: what each is, its value, and what is to be said of it."""
+
+    entries: tuple[tuple[Piece, Piece, Piece], ...]
 
 
 @dataclass(frozen=True)
@@ -93,6 +122,14 @@ class Picture:
     draw: Callable[[], Any]
     caption: str
     alt: str
+
+
+@dataclass(frozen=True)
+class Details:
+    """Blocks that a page folds up below a title; paper shows them."""
+
+    title: str
+    blocks: tuple[Block, ...]
 
 
 @dataclass(frozen=True)
@@ -132,7 +169,20 @@ class Listing:
     text: str
 
 
-Block = Heading | Paragraph | Note | Facts | Stamp | CaptionedTable | Picture | Formula | Annexes | Listing
+Block = (
+    Heading | Paragraph | Bullets | Aside | Note | Facts | Cards | Stamp | CaptionedTable | Picture | Details | Formula
+    | Annexes | Listing
+)  # fmt: skip
+
+
+def unfolded(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Blocks as paper has them: what a page folds up is a part with a heading."""
+    for block in blocks:
+        if isinstance(block, Details):
+            yield Heading(block.title, 3)
+            yield from unfolded(block.blocks)
+        else:
+            yield block
 
 
 def fields_of(blocks: Sequence[Block]) -> list[Field]:
@@ -148,7 +198,7 @@ def _pieces(block: Block) -> Iterator[Any]:
     elif isinstance(block, Facts):
         stack = [value for _, value in block.pairs]
     elif isinstance(block, CaptionedTable):
-        stack = [cell for row in block.table.all_rows for cell in row]
+        stack = [cell for row in block.table.rows for cell in row]
     stack.reverse()
     while stack:
         piece = stack.pop()

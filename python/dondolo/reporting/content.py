@@ -1,19 +1,15 @@
-"""What the templates of a report set: symbols, tables, figures. All are data; templates escape and lay out."""
+"""What blocks hold: symbols, tables, and sentences with numerals in their places. All are data, which writers set."""
 
 from __future__ import annotations
 
-import base64
-import io
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Any
 
 from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit, unit_of
-from dondolo.figures.layout import lay_out
-from dondolo.figures.wording import set_decimal_marks
 from dondolo.reporting.numerals import Numeral, number
 
 # What sentences that are said elsewhere are marked by for the catalogues
@@ -23,17 +19,10 @@ MONTHS = (
     _("October"), _("November"), _("December"),
 )  # fmt: skip
 _PLACE = re.compile(r"\{(\w+)\}")
-# Rows of a table that are written; what is left out is said
-ROWS = 500
-# Rows of a table that stays on one page, and columns of one that fills its width
-_SHORT, _WIDE = 14, 11
-# A drawing is embedded as SVG up to this size, and as pixels beyond: many thin curves make large drawings
-_SVG_BYTES = 600_000
-_DOTS_PER_INCH = 180
+# Rows of a table that stays on one page, and columns of those that take smaller letters on paper, and on any page
+_SHORT, _MANY, _WIDE = 14, 7, 11
 # Measures that sentences have in capitals
 _ABBREVIATIONS = ("pga", "pgv", "pgd", "cav", "hi")
-# Around a drawing [inch]
-_MARGIN = 0.1
 
 
 @dataclass(frozen=True)
@@ -50,7 +39,7 @@ THETA, BETA = Symbol("θ"), Symbol("β")
 # What a cell or a term holds: a text, a symbol, a numeral, or several of them in a row
 Piece = str | Symbol | Numeral | tuple[Any, ...]
 # Names and what they are
-Facts = list[tuple[Piece, Piece]]
+Pairs = list[tuple[Piece, Piece]]
 
 
 @dataclass(frozen=True)
@@ -88,73 +77,24 @@ class Table:
         return len(self.columns[0].cells)
 
     @property
-    def shown(self) -> int:
-        """How many of them are shown."""
-        return min(ROWS, self.total)
-
-    @property
     def is_short(self) -> bool:
         """Whether it should not be parted by the end of a page."""
-        return self.shown <= _SHORT
+        return self.total <= _SHORT
 
     @property
-    def is_wide(self) -> bool:
-        """Whether it needs small letters on a page."""
-        return len(self.columns) > _WIDE
-
-    @property
-    def all_rows(self) -> Iterable[tuple[Piece, ...]]:
-        """All rows."""
-        return zip(*(column.cells for column in self.columns), strict=True)
+    def breadth(self) -> str:
+        """How wide it is: 'many' columns need smaller letters on paper, and a 'wide' table on any page."""
+        columns = len(self.columns)
+        return "wide" if columns > _WIDE else "many" if columns > _MANY else ""
 
     @property
     def rows(self) -> Iterable[tuple[Piece, ...]]:
-        """The rows that are shown."""
-        return zip(*(column.cells[: self.shown] for column in self.columns), strict=True)
+        """Its rows."""
+        return zip(*(column.cells for column in self.columns), strict=True)
 
-
-@dataclass(frozen=True)
-class Figure:
-    """A drawing as a data URI, and what there is to see for those who cannot see it."""
-
-    source: str
-    alt: str
-
-
-def figure(draw: Callable[[], Any], alt: str) -> Figure:
-    """Draw a figure, embedded: as SVG, or as PNG where that would be large.
-
-    Parameters
-    ----------
-    draw : callable
-        Gives Matplotlib axes, or several of one figure.
-    alt : str
-        What there is to see.
-
-    Returns
-    -------
-    Figure
-    """
-    import matplotlib as mpl
-    import matplotlib.pyplot as plt
-
-    axes = draw()
-    drawing = (axes if hasattr(axes, "figure") else axes[0]).figure
-    try:
-        set_decimal_marks(drawing)
-        lay_out(drawing, is_cut=True)
-        shown = drawing.get_tightbbox().padded(_MARGIN)
-        # The same bytes every time: no date, and names in the drawing by a fixed salt.
-        with mpl.rc_context({"svg.hashsalt": "dondolo"}):
-            stream = io.BytesIO()
-            drawing.savefig(stream, format="svg", metadata={"Date": None}, bbox_inches=shown)
-            kind = "svg+xml"
-            if stream.tell() > _SVG_BYTES:
-                stream, kind = io.BytesIO(), "png"
-                drawing.savefig(stream, format="png", dpi=_DOTS_PER_INCH, bbox_inches=shown)
-    finally:
-        plt.close(drawing)
-    return Figure(f"data:image/{kind};base64,{base64.b64encode(stream.getvalue()).decode()}", alt)
+    def first(self, rows: int) -> Table:
+        """Its first rows."""
+        return Table(tuple(replace(column, cells=column.cells[:rows]) for column in self.columns))
 
 
 def pieces(sentence: str, **values: Any) -> tuple[Any, ...]:

@@ -1,8 +1,9 @@
-"""Facts of a report on designs of a wall: alternatives, each beside the first, and nothing over them."""
+"""Chapters of a report on designs of a wall: alternatives, each beside the first, and nothing over them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,20 +15,15 @@ from dondolo.curves.wording import errors_in_words
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.populations.typology import Typology
+from dondolo.reporting.blocks import Block, Cards, Details, Picture
 from dondolo.reporting.columns import chosen, shown
-from dondolo.reporting.content import (
-    THETA,
-    Piece,
-    Table,
-    figure,
-    level,
-    level_head,
-    pieces,
-    state_name,
-)
+from dondolo.reporting.content import THETA, Piece, Table, level, level_head, pieces, state_name
 from dondolo.reporting.numerals import number, probability
+from dondolo.reporting.parts import captioned, paragraph
 from dondolo.retrofit.designs import DesignComparison
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # Columns of the comparison
 _COMPARED = (
     "design", "theta", "beta", "ratio", "ratio_low", "ratio_high", "p_value", "steel_kg_m", "gain_per_kg", "alpha_0_g",
@@ -42,7 +38,7 @@ _ACROSS = 6
 _CARDS = 8
 
 
-def summary(found: DesignComparison) -> dict[str, Any]:
+def summary(found: DesignComparison) -> list[Block]:
     """The main numbers: the median of the first, and what the others make of it."""
     first = found.curves[0]
     median = level(first.theta, found.im) if first.has_fit else say("none")
@@ -57,10 +53,10 @@ def summary(found: DesignComparison) -> dict[str, Any]:
             else say("of medians")
         )
         cards.append((name, text, interval))
-    return {"cards": cards, "shares": []}
+    return [Cards(tuple(cards))]
 
 
-def designs(found: DesignComparison) -> dict[str, Any]:
+def designs(found: DesignComparison) -> list[Block]:
     """What each design gains against the first."""
     low, high = found.ratio_interval.T
     pairs = zip(found.names, found.ratio, low, high, strict=True)
@@ -71,17 +67,46 @@ def designs(found: DesignComparison) -> dict[str, Any]:
     alt = say(
         "Fragility curves of the designs, and the ratios of their medians to that of the first. {words}.", words=words
     )
-    return {
-        "first": found.names[0],
-        "confidence": decimal(f"{100.0 * found.confidence:.4g}"),
-        "figure": figure(found.plot, alt),
-        "table": shown(chosen(found._table(), *_COMPARED), found.im),
-        "has_checks": bool(found.checks) and found.im == "pga",
-        "checks": _checks(found) if found.checks else None,
-        "indices": figure(lambda: _indices(found), say("Safety indices of the designs, those of the table."))
-        if found.checks
-        else None,
-    }
+    confidence = decimal(f"{100.0 * found.confidence:.4g}")
+    sentence = (
+        _(
+            "Left: curves of the designs, with their fractions of collapse, and the capacity of each by the nonlinear"
+            " check of SLV, as peak acceleration. Right: median of each over that of the first, with {confidence} %"
+            " intervals, beside the ratio of the static accelerations with the ties at yield."
+        )
+        if found.checks and found.im == "pga"
+        else _(
+            "Left: curves of the designs, with their fractions of collapse. Right: median of each over that of the"
+            " first, with {confidence} % intervals, beside the ratio of the static accelerations with the ties at"
+            " yield."
+        )
+    )
+    caption = say(
+        "Designs beside the first, '{first}': ratios of the medians with {confidence} % intervals, steel, gain for each"
+        " kg/m of steel more, and static acceleration with the ties at yield.",
+        first=found.names[0],
+        confidence=confidence,
+    )
+    blocks: list[Block] = [
+        paragraph(
+            say(
+                "The walls are designs of one wall under the same records. A record that is hard on the wall is hard on"
+                " all its designs: the ratio of two medians is known better than either of them, and its interval comes"
+                " from the records in pairs."
+            )
+        ),
+        Picture(found.plot, say(sentence, confidence=confidence), alt),
+        captioned(shown(chosen(found._table(), *_COMPARED), found.im), caption),
+    ]
+    if found.checks:
+        of_checks = say(
+            "Checks by NTC 2018 of the designs, and their differences to the first. A bound of a return period has no"
+            " difference."
+        )
+        of_indices = say("Safety indices of the designs; from 1 on the check is satisfied.")
+        alt = say("Safety indices of the designs, those of the table.")
+        blocks += [captioned(_checks(found), of_checks), Picture(partial(_indices, found), of_indices, alt)]
+    return blocks
 
 
 def _checks(found: DesignComparison) -> Table:
@@ -108,14 +133,29 @@ def _indices(found: DesignComparison) -> Any:
     return ax
 
 
-def numbers(people: Typology) -> dict[str, Any]:
+def numbers(people: Typology) -> list[Block]:
     """Parameters and intervals of each design in each damage state, and its fractions at the levels."""
     limit = float(people.edp_thresholds[-1])
     states = {state_name(float(edp), limit): people.at(float(edp)) for edp in people.edp_thresholds[::-1]}
-    return {
-        "curves": [(state, _curves_table(one)) for state, one in states.items()],
-        "levels": [(state, table) for state, one in states.items() for table in _levels_tables(one)],
-    }
+    blocks: list[Block] = [
+        paragraph(
+            say("Designs are alternatives, of which one will be built: each has its own curve, and nothing is averaged"
+                " over them.")
+        )
+    ]  # fmt: skip
+    for place, (state, one) in enumerate(states.items()):
+        table = _curves_table(one)
+        if not place:
+            caption = say("{state}: parameters of each design with 95 % intervals.", state=state.capitalize())
+            blocks.append(captioned(table, caption))
+            continue
+        caption = say("Damage state {state}: parameters of each design with 95 % intervals.", state=state)
+        blocks.append(Details(say("Curves of the damage state {state}", state=state), (captioned(table, caption),)))
+    for state, one in states.items():
+        title = say("Fractions at the levels, {state}", state=state)
+        caption = say("Fraction of the histories of each design, {state}.", state=state)
+        blocks += [Details(title, (captioned(table, caption),)) for table in _levels_tables(one)]
+    return blocks
 
 
 def _curves_table(people: Typology) -> Table:

@@ -1,4 +1,4 @@
-"""Facts of a report on one facade, or one wall with several mechanisms, counted in the same histories."""
+"""Chapters of a report on one facade, or one wall with several mechanisms, counted in the same histories."""
 
 from __future__ import annotations
 
@@ -8,16 +8,20 @@ from dondolo._base.wording import say
 from dondolo._fortran.walls import EXCLUSIVE
 from dondolo.populations.typology import Typology
 from dondolo.reporting import wall
+from dondolo.reporting.blocks import Block, Cards, Details, Picture
 from dondolo.reporting.columns import of_curve, parameters_of, shown
-from dondolo.reporting.content import BETA, THETA, Piece, Table, figure, level, pieces, state_name
+from dondolo.reporting.content import BETA, THETA, Piece, Table, level, pieces, state_name
 from dondolo.reporting.numerals import number
+from dondolo.reporting.parts import captioned, crossing_states, on_lognormal_curves, paragraph
 from dondolo.reporting.statuses import crossings, in_words, short_status
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # Mechanisms whose medians stand at the beginning
 _CARDS = 4
 
 
-def summary(people: Typology) -> dict[str, Any]:
+def summary(people: Typology) -> list[Block]:
     """The main numbers: the curve of the same histories, and the median of each mechanism."""
     curve = people.unions[people.facade]
     cards: list[tuple[Piece, Piece, Piece]] = []
@@ -35,7 +39,7 @@ def summary(people: Typology) -> dict[str, Any]:
     for row, one in list(zip(people.walls, people.curves, strict=True))[:_CARDS]:
         median = level(one.theta, people.im) if one.has_fit else say("none")
         cards.append((pieces("median {theta} alone", theta=THETA), median, row.name))
-    return {"cards": cards, "shares": []}
+    return [Cards(tuple(cards))]
 
 
 def _is_exclusive(people: Typology) -> bool:
@@ -47,47 +51,86 @@ def _is_exclusive(people: Typology) -> bool:
     )
 
 
-def curves(people: Typology) -> dict[str, Any]:
+def curves(people: Typology) -> list[Block]:
     """Figures of the curves, and of the damage states with those that cross."""
     name = people.facade
     alt = say("Curves of the mechanisms of {name}, and of any of them in the same histories.", name=name) + " "
+    sentence = _(
+        "{name}: each of its mechanisms alone, any of them in the same histories (bold, with the fractions at the"
+        " levels), and independent mechanisms (thin grey)."
+    )
     if _is_exclusive(people):
         alt = say("Curves of the mechanisms of {name}, and of all with their probabilities.", name=name) + " "
-    found: dict[str, Any] = {
-        "name": name,
-        "is_exclusive": _is_exclusive(people),
-        "has_product": not people.population._has_single_alternatives(name),
-        "union": figure(people.plot_union, alt + f"{name}: {in_words(people.unions[name])}."),
-        "states": None,
-        "crossings": None,
-    }
+        sentence = _(
+            "{name}: each of its mechanisms alone, all of them in the same histories with the probabilities of their"
+            " alternatives (bold, with the fractions at the levels), and independent mechanisms within an alternative"
+            " (thin grey)."
+        )
+        if people.population._has_single_alternatives(name):
+            sentence = _(
+                "{name}: each of its mechanisms alone, and all of them in the same histories with their probabilities"
+                " (bold, with the fractions at the levels)."
+            )
+    alt += f"{name}: {in_words(people.unions[name])}."
+    blocks: list[Block] = [
+        paragraph(on_lognormal_curves()),
+        Picture(people.plot_union, say(sentence, name=name), alt),
+    ]
     if len(people.edp_thresholds) > 1:
         states = [people.at(float(edp)).unions[name] for edp in people.edp_thresholds]
         words = "; ".join(
             say("EDP {threshold:g}: {words}.", threshold=curve.edp_threshold, words=in_words(curve)) for curve in states
         )
-        found["states"] = figure(
-            people.plot_damage_states, say("Probability to reach each damage state. {words}", words=words)
+        alt = say("Probability to reach each damage state. {words}", words=words)
+        caption = say(
+            "Damage states, any mechanism, in the same histories. EDP is the largest rotation over the capacity; a"
+            " history reaches a state if its EDP comes to the threshold."
         )
+        blocks.append(Picture(people.plot_damage_states, caption, alt))
         if all(curve.has_fit for curve in states):
             names = [state_name(float(edp), float(people.edp_thresholds[-1])) for edp in people.edp_thresholds]
-            found["crossings"] = crossings({name: states}, names, people.levels, people.im)
-    return found
+            crossed = crossings({name: states}, names, people.levels, people.im)
+            advice = say("dondolo nrml takes it: it raises the curve of the less severe state.")
+            blocks += crossing_states(crossed, advice)
+    return blocks
 
 
-def numbers(people: Typology) -> dict[str, Any]:
+def numbers(people: Typology) -> list[Block]:
     """Tables of parameters and of fractions at the levels, and what independent mechanisms would give."""
     limit, name = float(people.edp_thresholds[-1]), people.facade
     states = {state_name(float(edp), limit): people.at(float(edp)) for edp in people.edp_thresholds[::-1]}
+    counted = (
+        say(
+            "One of the mechanisms, or of their alternatives, occurs. A history, of one record, polarity and level,"
+            " counts with the sum of the probabilities of those that reach the state in it."
+        )
+        if _is_exclusive(people)
+        else say("A history, of one record, polarity and level, counts if any of the mechanisms reaches the state in"
+                 " it.")
+    )  # fmt: skip
+    blocks: list[Block] = [paragraph(counted, say("The curve of each mechanism alone is that of the same histories."))]
+    (main, *others) = states.items()
+    caption = say("{state}: parameters of the curves.", state=main[0].capitalize())
+    blocks.append(captioned(_curves_table(main[1]), caption))
+    for state, one in others:
+        caption = say("Damage state {state}: parameters of the curves.", state=state)
+        title = say("Curves of the damage state {state}", state=state)
+        blocks.append(Details(title, (captioned(_curves_table(one), caption),)))
+    caption = say("{state}: histories that any mechanism collapses in, at the levels.", state=main[0].capitalize())
+    blocks.append(captioned(_levels_table(main[1]), caption))
+    for state, one in others:
+        caption = say("Damage state {state}: histories in which any mechanism reaches it, at the levels.", state=state)
+        blocks.append(Details(say("Levels, {state}", state=state), (captioned(_levels_table(one), caption),)))
     product = people.combined[name]
-    return {
-        "is_exclusive": _is_exclusive(people),
-        "curves": [(state, _curves_table(one)) for state, one in states.items()],
-        "levels": [(state, _levels_table(one)) for state, one in states.items()],
-        "product": (THETA, " = ", level(product.theta, people.im), ", ", BETA, " = ", number(product.beta, 3))
-        if product.has_fit and not people.population._has_single_alternatives(name)
-        else None,
-    }
+    if product.has_fit and not people.population._has_single_alternatives(name):
+        theta, beta = level(product.theta, people.im), number(product.beta, 3)
+        sentence = _(
+            "Footnote. Independent mechanisms would give {parameters}. One record causes several of them, or none: the"
+            " product 1 - ∏ (1 - P) counts them as if each had records of its own."
+        )
+        parameters = (THETA, " = ", theta, ", ", BETA, " = ", beta)
+        blocks.append(paragraph(pieces(sentence, parameters=parameters), look="footnote"))
+    return blocks
 
 
 def _curves_table(people: Typology) -> Table:
@@ -120,6 +163,6 @@ def _levels_table(people: Typology) -> Table:
     return shown(columns | of_curve(union, people.levels), people.im)
 
 
-def uncertainty(people: Typology) -> dict[str, Any]:
+def uncertainty(people: Typology) -> list[Block]:
     """Intervals of the parameters."""
     return wall.uncertainty(people.unions[people.facade])

@@ -23,7 +23,7 @@ from dondolo.exchange.results import Results
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
-from dondolo.reporting.content import Facts
+from dondolo.reporting.content import Pairs
 from dondolo.retrofit.designs import DesignComparison
 from dondolo.walls.population import Population
 
@@ -94,7 +94,7 @@ class Run:
     curve: Fragility | None = None
     states: tuple[Fragility, ...] = ()
     records: tuple[Record, ...] = ()
-    settings: Facts = field(default_factory=list)
+    settings: Pairs = field(default_factory=list)
     file: RunFile | None = None
     warnings: list[DondoloWarning] = field(default_factory=list)
     scales: LargeScales | None = None
@@ -181,7 +181,7 @@ def _of_stripes(stripes: Stripes) -> Run:
     # Of the stripes that there are; those of the run may be of more.
     of_run = [one for one in stripes.warnings if one.code != _LARGE_SCALES]
     found = [*of_run, *of_scales, *found]
-    settings: Facts = [
+    settings: Pairs = [
         (say("engine"), stripes.engine),
         ("rtol, atol", f"{stripes.rtol:g}, {stripes.atol:g}"),
         ("edp_limit", f"{stripes.edp_limit:g}"),

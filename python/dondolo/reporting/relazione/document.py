@@ -15,9 +15,12 @@ from dondolo.reporting.language import Language
 from dondolo.reporting.relazione.project import Project
 from dondolo.reporting.relazione.subjects import Subject, Subjects
 from dondolo.reporting.words import item_in_words, the_item_in_words
+from dondolo.reporting.writers.imprint import Imprint
 
 # What sentences of the chapters are marked by for the catalogues
 _ = str
+# Height that a figure may have in Word [cm]
+_TALLEST = 6.0
 # Accelerations of demand, with their symbols on the ground and on a floor
 _DEMANDS = {
     "floor_pga": (_("peak acceleration"), "a_g S", "a_Z"),
@@ -39,6 +42,22 @@ class Document:
     language: Language
     project: Project
     subjects: Subjects
+
+    def imprint(self, mark: str) -> Imprint:
+        """What the document says of itself, with the mark by which dondolo knows it."""
+        words = self.project.words
+        return Imprint(
+            self.language,
+            mark,
+            self.text(_("Calculation report")),
+            author=words.get("designer", ""),
+            work=words.get("work", ""),
+            place=words.get("place", ""),
+            revision=words.get("revision", "0"),
+            keywords="NTC 2018, C8.7.1.2.1",
+            is_for_paper=True,
+            tallest=_TALLEST,
+        )
 
     def text(self, sentence: str, **values: object) -> str:
         """A sentence in the language of the document."""

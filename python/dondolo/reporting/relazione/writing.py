@@ -8,9 +8,7 @@ from collections.abc import Sequence
 from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.files import as_file
 from dondolo._fortran.library import warn_of_notes
-from dondolo._fortran.origins import check_replaced, derived_mark
-from dondolo._storage import tables
-from dondolo.errors import silent
+from dondolo._fortran.origins import derived_mark
 from dondolo.exchange.results import Results
 
 
@@ -82,18 +80,15 @@ def calculation_report(
     >>> "judgement" in left
     True
     """
-    import matplotlib.pyplot as plt
-
     from dondolo.reporting.blocks import fields_of
     from dondolo.reporting.language import Language
-    from dondolo.reporting.pdf import check_printer, sets_formulas, write_pdf
     from dondolo.reporting.relazione.chapters import CHAPTERS
     from dondolo.reporting.relazione.document import Document
     from dondolo.reporting.relazione.project import read_project
     from dondolo.reporting.relazione.subjects import subjects_of
-    from dondolo.reporting.relazione.web import page
+    from dondolo.reporting.writers.writing import SUFFIXES, check_target, undisturbed, write
 
-    target = as_file("path", path, ".docx", ".html", ".htm", ".pdf")
+    target = as_file("path", path, *SUFFIXES)
     suffix = target.suffix.lower()
     if template is not None and suffix != ".docx":
         raise argument_error(
@@ -101,28 +96,16 @@ def calculation_report(
             "template",
             f" = {os.fspath(template)!r}: must be left out for {suffix}, which has no styles of Word",
         )
-    if suffix == ".pdf":
-        check_printer()
+    check_target(target)
     several = [results] if isinstance(results, Results) else list(results)
     found = [instance_of("results", one, Results) for one in several]
     if not found:
         raise argument_error("not_given", "results", ": must be at least one")
     language = Language(lang)
     document = Document(language, read_project(project), subjects_of(found, mechanisms=mechanisms))
-    check_replaced(target, "report")
-    mark = derived_mark("report", found[0].run.run)
-    left_out: list[str] = []
-    plt.draw_if_interactive()  # type: ignore[no-untyped-call]
-    with plt.ioff(), silent():
+    with undisturbed():
         blocks = [block for chapter in CHAPTERS for block in chapter(document)]
-        if suffix == ".docx":
-            from dondolo.reporting.relazione.word import write_word
-
-            left_out = write_word(target, blocks, document, mark, template)
-        elif suffix == ".pdf":
-            write_pdf(target, page(blocks, document, mark, formulas=sets_formulas()), mark)
-        else:
-            tables.write_lines(target, [page(blocks, document, mark, formulas=True).rstrip("\n")])
+        left_out = write(target, blocks, document.imprint(derived_mark("report", found[0].run.run)), template)
     if left_out:
         warn_of_notes([f"{os.fspath(template or '')}: left out of the document: {', '.join(left_out)}"])
     return tuple(dict.fromkeys(field.key for field in fields_of(blocks)))

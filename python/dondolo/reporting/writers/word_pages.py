@@ -5,28 +5,28 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Any
 
-from dondolo.reporting.relazione.document import Document, _
-from dondolo.reporting.relazione.word_fields import add_number
+from dondolo.reporting.writers.imprint import Imprint
+from dondolo.reporting.writers.word_fields import add_number
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # Characters that a property of a file of Word has room for
 _ROOM = 255
-_SIZES = {"Normal": 10, "Title": 18, "Heading 1": 13, "Heading 2": 11.5, "Caption": 9}
+_SIZES = {"Normal": 10, "Title": 18, "Heading 1": 13, "Heading 2": 11.5, "Heading 3": 10, "Caption": 9}
 _FONT = "Arial"
 # Of the header and the footer [points]
 _MARGINAL = 8
 
 
-def set_pages(file: Any, title: str, document: Document) -> None:
+def set_pages(file: Any, imprint: Imprint) -> None:
     """A4, letters that are on every machine, a header from the second page on, and page numbers.
 
     Parameters
     ----------
     file : Document
         Of python-docx.
-    title : str
-        Of the report.
-    document : Document
-        For the language, and for what the header has of the project.
+    imprint : Imprint
+        For what the header has.
     """
     from docx.oxml.ns import qn
     from docx.shared import Cm, Pt, RGBColor
@@ -48,7 +48,7 @@ def set_pages(file: Any, title: str, document: Document) -> None:
     file.styles["Heading 1"].paragraph_format.space_before = Pt(12)
     # The title page has its words already, but its number too
     section.different_first_page_header_footer = True
-    _put_header(section.header.paragraphs[0], title, document)
+    _put_header(section.header.paragraphs[0], imprint)
     for footer in (section.footer, section.first_page_footer):
         paragraph = footer.paragraphs[0]
         paragraph.alignment = 1
@@ -59,18 +59,16 @@ def set_pages(file: Any, title: str, document: Document) -> None:
             run.font.size = Pt(_MARGINAL)
 
 
-def _put_header(paragraph: Any, title: str, document: Document) -> None:
+def _put_header(paragraph: Any, imprint: Imprint) -> None:
     """The work and its revision on the left, the report on the right, and a line below."""
     from docx.oxml import OxmlElement
     from docx.oxml.ns import qn
     from docx.shared import Pt
 
-    words = document.project.words
-    revision = document.text(_("revision {number}"), number=words.get("revision", "0"))
-    left = ", ".join([*([words["work"]] if "work" in words else []), revision])
+    revision = imprint.revision and imprint.language.text(_("revision {number}"), number=imprint.revision)
+    left = ", ".join(filter(None, (imprint.work, revision)))
     # The style of headers has a stop in the middle, and one on the right
-    short = document.text(_("Calculation report"))
-    paragraph.add_run(f"{left}\t\t{short}").font.size = Pt(_MARGINAL)
+    paragraph.add_run(f"{left}\t\t{imprint.short}").font.size = Pt(_MARGINAL)
     line = OxmlElement("w:bottom")
     for name, value in (("val", "single"), ("sz", "4"), ("space", "3"), ("color", "888888")):
         line.set(qn(f"w:{name}"), value)
@@ -79,14 +77,14 @@ def _put_header(paragraph: Any, title: str, document: Document) -> None:
     paragraph._p.get_or_add_pPr().insert_element_before(sides, "w:shd", "w:tabs", "w:spacing", "w:ind", "w:jc")
 
 
-def set_properties(file: Any, title: str, document: Document, mark: str) -> None:
+def set_properties(file: Any, title: str, imprint: Imprint) -> None:
     """Title, subject, author, language and date of a file, and the mark by which dondolo knows it."""
-    words, found = document.project.words, file.core_properties
+    found = file.core_properties
     found.title = title[:_ROOM]
-    found.subject = ", ".join(words[name] for name in ("work", "place") if name in words)[:_ROOM]
-    found.author = found.last_modified_by = words.get("designer", "")[:_ROOM]
-    found.version = words.get("revision", "0")[:_ROOM]
-    found.keywords = "NTC 2018, C8.7.1.2.1"
-    found.language = document.language.code
+    found.subject = ", ".join(filter(None, (imprint.work, imprint.place)))[:_ROOM]
+    found.author = found.last_modified_by = imprint.author[:_ROOM]
+    found.version = imprint.revision[:_ROOM]
+    found.keywords = imprint.keywords
+    found.language = imprint.language.code
     found.created = found.modified = datetime.now(UTC).replace(microsecond=0)
-    found.comments = mark
+    found.comments = imprint.mark

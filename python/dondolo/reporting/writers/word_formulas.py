@@ -6,19 +6,19 @@ from typing import Any
 
 from dondolo.reporting.blocks import Formula, Fraction, Root
 from dondolo.reporting.content import Symbol
+from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import Numeral
-from dondolo.reporting.relazione.document import Document
 
 
-def formula_of(block: Formula, document: Document) -> Any:
+def formula_of(block: Formula, language: Language) -> Any:
     """The element of a formula, which stands in a paragraph of its own.
 
     Parameters
     ----------
     block : Formula
         Its sides and its place in the code.
-    document : Document
-        For the language.
+    language : Language
+        Of the document.
     """
     from docx.oxml import OxmlElement
 
@@ -27,7 +27,7 @@ def formula_of(block: Formula, document: Document) -> Any:
     for place, side in enumerate(block.sides):
         if place:
             _text(inner, " = ")
-        _put(inner, side, document)
+        _put(inner, side, language)
     if block.place:
         _text(inner, f"\N{EM SPACE}({block.place})", upright=True)
     return made
@@ -42,24 +42,24 @@ def child(parent: Any, name: str) -> Any:
     return made
 
 
-def _put(parent: Any, part: Any, document: Document) -> None:
+def _put(parent: Any, part: Any, language: Language) -> None:
     """A part of a formula."""
     if isinstance(part, tuple):
         for one in part:
-            _put(parent, one, document)
+            _put(parent, one, language)
     elif isinstance(part, Fraction):
         made = child(parent, "m:f")
-        _put(child(made, "m:num"), part.top, document)
-        _put(child(made, "m:den"), part.bottom, document)
+        _put(child(made, "m:num"), part.top, language)
+        _put(child(made, "m:den"), part.bottom, language)
     elif isinstance(part, Root):
         made = child(parent, "m:rad")
         _value(child(child(made, "m:radPr"), "m:degHide"), "1")
         child(made, "m:deg")
-        _put(child(made, "m:e"), part.inside, document)
+        _put(child(made, "m:e"), part.inside, language)
     elif isinstance(part, Symbol):
-        _symbol(parent, part, document)
+        _symbol(parent, part, language)
     elif isinstance(part, Numeral):
-        _text(parent, document.language.decimal(part.text), upright=True)
+        _text(parent, language.decimal(part.text), upright=True)
         if part.power:
             made = child(parent, "m:sSup")
             _text(child(made, "m:e"), "·10")
@@ -70,7 +70,7 @@ def _put(parent: Any, part: Any, document: Document) -> None:
         _text(parent, part.replace(" · ", "\N{THIN SPACE}·\N{THIN SPACE}"), upright=True)
 
 
-def _symbol(parent: Any, symbol: Symbol, document: Document) -> None:
+def _symbol(parent: Any, symbol: Symbol, language: Language) -> None:
     """A letter with what is below and above it."""
     kind = {(True, True): "m:sSubSup", (True, False): "m:sSub", (False, True): "m:sSup"}
     name = kind.get((bool(symbol.index), bool(symbol.mark)))
@@ -80,7 +80,7 @@ def _symbol(parent: Any, symbol: Symbol, document: Document) -> None:
     made = child(parent, name)
     _text(child(made, "m:e"), symbol.letter)
     if symbol.index:
-        _text(child(made, "m:sub"), document.text(symbol.index), upright=True)
+        _text(child(made, "m:sub"), language.text(symbol.index), upright=True)
     if symbol.mark:
         _text(child(made, "m:sup"), symbol.mark, upright=True)
 
