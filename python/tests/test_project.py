@@ -140,7 +140,7 @@ def files_needed(folder, module):
 
 
 @pytest.mark.parametrize(
-    ("module", "most"), [("dondolo_motion_rk45", 47), ("dondolo_fragility_stripes", 89), ("dondolo_core", 143)]
+    ("module", "most"), [("dondolo_motion_rk45", 47), ("dondolo_fragility_stripes", 89), ("dondolo_core", 144)]
 )
 def test_few_files_have_to_be_read(root, module, most):
     """To understand the engine, or a study, one reads no more than these, and none of them opens a file."""
