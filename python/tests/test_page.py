@@ -410,6 +410,7 @@ def test_horizontal_bending_is_drawn_in_its_plan(visit):
     assert page.locator("#wall circle.hinge").count() == 3
     assert page.locator("#wall line.force").count() == 2
     before = page.text_content("#numbers .main dd")
+    page.evaluate("document.querySelectorAll('#form details').forEach((one) => { one.open = true; })")
     page.click("[data-group=pushes] > .adds button >> nth=0")
     settled(page)
     assert page.locator("#wall line.force").count() == 3

@@ -459,7 +459,7 @@ def test_import_is_light():
     run = subprocess.run([sys.executable, "-c", IMPORTS], capture_output=True, text=True, check=True)
     alone, whole, heavy = run.stdout.splitlines()
     assert heavy == ""
-    for counted, bounds in ((alone, (31, 510_000, 23_000)), (whole, (305, 2_800_000, 145_000))):
+    for counted, bounds in ((alone, (31, 510_000, 23_000)), (whole, (305, 2_800_000, 146_500))):
         modules, size, calls = map(int, counted.split())
         assert modules <= bounds[0], counted
         assert size <= bounds[1], counted
@@ -586,7 +586,7 @@ def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
         "Body", "Building", "Chain", "Choice", "Corner", "DiscreteFragility", "DistributedSpring", "FreeStandingWall",
-        "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "InertialMass", "Load", "Lognormal",
+        "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "HorizontalBending", "InertialMass", "Load", "Lognormal",
         "Normal", "OneSidedWall", "Part", "Pin", "PointLoad", "PointMass", "PointThrust", "PointTie", "Population",
         "Record", "RecordSet", "Section", "Sector", "Site", "Spring", "TabulatedWall", "TargetSpectrum",
         "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform", "Wall",
