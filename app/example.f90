@@ -12,9 +12,10 @@ module dondolo_example
 
    !> The cases in data/cases
    character(len=*), parameter :: example_names(*) = [character(len=19) :: &
-      & 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade', 'facade_hinges', 'facade_strip', 'facades', &
-      & 'gable', 'garden_wall', 'historic_centre', 'history', 'panel', 'parapet', 'parapet_on_building', 'pinnacle', &
-      & 'population', 'portal', 'tied_facade', 'two_block', 'uncertain_strip']
+      & 'arch', 'cavity_wall', 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade', &
+      & 'facade_hinges', 'facade_strip', 'facades', 'frame', 'gable', 'garden_wall', 'historic_centre', 'history', &
+      & 'horizontal', 'panel', 'parapet', 'parapet_on_building', 'pinnacle', 'population', 'portal', 'storey_strip', &
+      & 'tied_facade', 'tied_portal', 'two_block', 'uncertain_strip']
 
    !> How the cases say that they run from the repository
    character(len=*), parameter :: from_repository = 'from the root of the repository: dondolo data/cases/'

@@ -9,7 +9,7 @@ module dondolo_plan_wall
    use dondolo_record, only : record_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type
-   use dondolo_wall_tabulated_model, only : chain_name
+   use dondolo_wall_tabulated_model, only : chain_name, horizontal_name
    use dondolo_wall_tie_statics, only : greatest_acceleration, plastic_acceleration
    implicit none
    private
@@ -190,8 +190,9 @@ contains
       ! The hinges of a chain are its joints.
       if (wall%mechanism_name() == chain_name) return
       if (wall%model%is_whole) then
-         ! A corner has no hinge at its edge to compare with
-         call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the edge, '//trim(merge('of crushed masonry', &
+         ! A corner has no hinge at its edge to compare with, and nothing but its strength gives that of horizontal bending.
+         call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the '//trim(merge('faces', 'edge ', &
+            & wall%mechanism_name() == horizontal_name))//', '//trim(merge('of crushed masonry', &
             & 'given             ', wall%input%has('compressive_strength'))))
       else if (.not. wall%model%hinge_depth > 0.0_wp) then
          call print_line('hinge', 'at the face: geometry governs, no crushing')

@@ -462,6 +462,7 @@ contains
             if (mechanism_names(m) == 'corner') call complete_corner(input, what)
             if (mechanism_names(m) == 'tabulated') call complete_table(input)
             if (mechanism_names(m) == 'chain') call complete_chain(input)
+            if (mechanism_names(m) == 'horizontal') call complete_band(input, what)
             ! Less than walls of each mechanism allow, and what its seed is for
             if (index(what, 'restitution_s') == 1) call input%set('restitution_sd', 0.02_wp)
             if (what == 'elastic_damping' .and. mechanism_names(m) == 'two_block') call input%set('elastic_period', 0.05_wp)
@@ -532,6 +533,27 @@ contains
       if (input%has('top_share')) call input%set('top_tilt', 3.0_wp)
       if (input%has('top_tilt') .and. .not. input%has('top_share')) call input%set('top_share', 0.5_wp)
    end subroutine complete_table
+
+   !> Give what holds a wall that bends horizontally, and what goes with a push
+   subroutine complete_band(input, what)
+      type(wall_input_type), intent(inout) :: input
+      character(len=*), intent(in) :: what
+
+      ! Its height is its length, however it is given.
+      if (what == 'height') call input%set('length', input%number('height'))
+      if (what /= 'height') call input%clear('height')
+      if (.not. input%has('length')) call input%set('length', 4.0_wp)
+      if (.not. input%has('end_thrust')) call input%set('end_thrust', 25.0e3_wp)
+      if (what == 'stress_block') then
+         call input%set('compressive_strength', 1.5e6_wp)
+      else if (.not. (input%has('hinge_depth') .or. input%has('compressive_strength'))) then
+         call input%set('hinge_depth', 0.02_wp)
+      end if
+      if (input%has('push') .and. .not. input%has('push_x')) call input%set('push_x', 1.5_wp + 0.0_wp*input%list('push'))
+      if (input%has('push_x') .and. .not. input%has('push')) call input%set('push', 100.0_wp + 0.0_wp*input%list('push_x'))
+      if (.not. input%has('sides')) call input%set('sides', 1.0_wp)
+      if (.not. input%has('restitution_value')) call input%set('restitution_value', 0.5_wp)
+   end subroutine complete_band
 
    !> Give the rows of a chain: a block with a load
    subroutine complete_chain(input)

@@ -303,11 +303,11 @@ contains
 
       call suite('wrong input')
       call refuse(input, 'mechanism: must be given, one of ''one_sided'', ''free_standing'', ''two_block'', ''corner'', &
-         &''tabulated'', ''chain''')
+         &''tabulated'', ''chain'', ''horizontal''')
       input = parapet()
       call input%set('mechanism', 'three_block')
       call refuse(input, 'mechanism = ''three_block'': must be one of ''one_sided'', ''free_standing'', ''two_block'', &
-         &''corner'', ''tabulated'', ''chain''')
+         &''corner'', ''tabulated'', ''chain'', ''horizontal''')
       input = parapet()
       call input%clear('height')
       call refuse(input, 'height: must be given')

@@ -63,6 +63,7 @@ from dondolo.walls.chain_parts import Sector as Sector
 from dondolo.walls.mechanisms import Chain as Chain
 from dondolo.walls.mechanisms import Corner as Corner
 from dondolo.walls.mechanisms import FreeStandingWall as FreeStandingWall
+from dondolo.walls.mechanisms import HorizontalBending as HorizontalBending
 from dondolo.walls.mechanisms import OneSidedWall as OneSidedWall
 from dondolo.walls.mechanisms import TabulatedWall as TabulatedWall
 from dondolo.walls.mechanisms import TwoBlockWall as TwoBlockWall

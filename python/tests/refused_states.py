@@ -39,6 +39,17 @@ WALLS = {
         "overburden": 5e3,
         "overburden_inertia": 0.5,
     },
+    "horizontal": {
+        "mechanism": "horizontal",
+        "length": 5.0,
+        "thickness": 0.45,
+        "end_thrust": 25e3,
+        "compressive_strength": 1.5e6,
+        "push": [300.0],
+        "push_x": [2.0],
+        "sides": 1,
+        "restitution_value": 0.7,
+    },
     "corner": {
         "mechanism": "corner",
         "height": 3.2,

@@ -300,6 +300,12 @@ def test_between_two_bodies():
         assert force == pytest.approx(stiffness * travel * lever, rel=1e-4, abs=1e-3)
 
 
+def test_what_a_table_leaves_out(root):
+    """Numbers of a bar whose columns are empty, or not there, are those of ties of other walls."""
+    wall = dd.read_case(root / "data/cases/tied_portal.nml").population[0]
+    assert list(wall.tie_table[7:]) == [3.1e-4, 5.0, 2.06e11, 1.8e8, 0.0, 0.02, 0.0]
+
+
 def test_files(executable, root, tmp_path):
     """Tables of ties give the same wall in a case, whose results, report and drawing have them."""
     wall = portal(ties=[ROD, dd.PointTie(2, (0.5, 5.4), area=5e-5, length=4.0, anchor_force=5e3)], name="tied")

@@ -187,7 +187,7 @@ def test_late_answers_are_given_up(visit):
 def test_everything_is_named_and_fits(visit, width, scheme):
     """Every control has a name, nothing is wider than the page, in both languages; axe finds nothing, if it is here."""
     page = visit(width, color_scheme=scheme)
-    for kind in ("one_sided", "two_block", "free_standing"):
+    for kind in ("one_sided", "two_block", "free_standing", "horizontal"):
         page.evaluate(f"document.querySelector('input[value={kind}]').click()")
         page.evaluate("document.querySelectorAll('#form details').forEach((one) => { one.open = true; })")
         settled(page)
@@ -366,7 +366,7 @@ def test_italian_has_no_english_word(visit):
     found = {}
     for lang in ("it", "en"):
         parts = []
-        for kind in ("two_block", "free_standing", "one_sided"):
+        for kind in ("two_block", "free_standing", "horizontal", "one_sided"):
             page.evaluate(f"document.querySelector('input[value={kind}]').click()")
             page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
             settled(page)
@@ -398,6 +398,29 @@ def test_italian_has_no_english_word(visit):
     assert seen - SHARED == set()
     assert named - SHARED == set()
     assert tips - SHARED - names == set()
+
+
+def test_horizontal_bending_is_drawn_in_its_plan(visit):
+    """Two leaves between transverse walls, with three hinges, the thrust at both ends and a push; and as it moves."""
+    page = visit(reduced_motion="reduce")
+    page.evaluate("document.querySelector('input[value=horizontal]').click()")
+    settled(page)
+    assert "mechanism = 'horizontal'" in page.text_content("#text")
+    assert page.locator("#wall polygon.body").count() == page.locator("#wall polygon.ghost").count() == 2
+    assert page.locator("#wall circle.hinge").count() == 3
+    assert page.locator("#wall line.force").count() == 2
+    before = page.text_content("#numbers .main dd")
+    page.evaluate("document.querySelectorAll('#form details').forEach((one) => { one.open = true; })")
+    page.click("[data-group=pushes] > .adds button >> nth=0")
+    settled(page)
+    assert page.locator("#wall line.force").count() == 3
+    assert "push_x = 2.5" in page.text_content("#text")
+    assert page.text_content("#numbers .main dd") != before
+    page.click("input[value=one_sided]", force=True)
+    settled(page)
+    text = page.text_content("#text")
+    assert "height = 5" in text
+    assert "end_thrust" not in text
 
 
 # The server's refusals of states, with the page's sentences of them

@@ -140,7 +140,7 @@ def files_needed(folder, module):
 
 
 @pytest.mark.parametrize(
-    ("module", "most"), [("dondolo_motion_rk45", 47), ("dondolo_fragility_stripes", 89), ("dondolo_core", 143)]
+    ("module", "most"), [("dondolo_motion_rk45", 47), ("dondolo_fragility_stripes", 89), ("dondolo_core", 144)]
 )
 def test_few_files_have_to_be_read(root, module, most):
     """To understand the engine, or a study, one reads no more than these, and none of them opens a file."""
@@ -457,7 +457,7 @@ def test_import_is_light():
     run = subprocess.run([sys.executable, "-c", IMPORTS], capture_output=True, text=True, check=True)
     alone, whole, heavy = run.stdout.splitlines()
     assert heavy == ""
-    for counted, bounds in ((alone, (31, 510_000, 23_000)), (whole, (305, 2_800_000, 145_000))):
+    for counted, bounds in ((alone, (31, 510_000, 23_000)), (whole, (305, 2_800_000, 146_500))):
         modules, size, calls = map(int, counted.split())
         assert modules <= bounds[0], counted
         assert size <= bounds[1], counted
@@ -584,7 +584,7 @@ def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
         "Body", "Building", "Chain", "Choice", "Corner", "DiscreteFragility", "DistributedSpring", "FreeStandingWall",
-        "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "InertialMass", "Load", "Lognormal",
+        "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "HorizontalBending", "InertialMass", "Load", "Lognormal",
         "Normal", "OneSidedWall", "Part", "Pin", "PointLoad", "PointMass", "PointThrust", "PointTie", "Population",
         "Record", "RecordSet", "Section", "Sector", "Site", "Spring", "TabulatedWall", "TargetSpectrum",
         "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform", "Wall",

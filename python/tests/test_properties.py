@@ -73,7 +73,10 @@ def test_walls(kind):
         kinds = (
             "sequence of float"
             if row.name
-            in ("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", "axis_x", "axis_z", *TABLES)
+            in {
+                *("hinge_range", "weight", "displacement", "elevation_x", "elevation_z", "axis_x", "axis_z"),
+                *("push", "push_x", *TABLES),
+            }
             else "{"
             if row.choices
             else "str"
@@ -90,9 +93,11 @@ def test_walls(kind):
             assert what.startswith("{" + ", ".join(map(repr, row.choices)) + "}")
 
 
-# Tabulated walls and chains have no defaults of their own, corners have wings that must be given
+# Tabulated walls and chains have no defaults of their own, corners have wings that must be given, horizontal bending a
+# thrust
 @pytest.mark.parametrize(
-    "kind", [kind for kind in MECHANISMS.values() if kind not in (dd.Corner, dd.TabulatedWall, dd.Chain)]
+    "kind",
+    [kind for kind in MECHANISMS.values() if kind not in (dd.Corner, dd.TabulatedWall, dd.Chain, dd.HorizontalBending)],
 )
 def test_defaults_of_walls(kind):
     wall = kind(3.0, 0.25)

@@ -266,7 +266,7 @@ def test_files_are_lists(executable, root, tmp_path):
 
 @pytest.mark.parametrize(
     ("word", "way"),
-    [("arch", "'chain', whose tables dd.arch of Python"), ("horizontal_bending", "dd.horizontal_bending of Python"),
+    [("arch", "'chain', whose tables dd.arch of Python"), ("horizontal_bending", "mechanism = 'horizontal'"),
      ("panel", "'one_sided' with elevation_x"), ("strip", "'two_block'"), ("frame", "from tables of its bodies")],
 )  # fmt: skip
 def test_a_word_for_a_mechanism_names_the_way(word, way, executable, tmp_path):

@@ -211,6 +211,7 @@ def test_what_is_shown_is_what_the_executable_computes(name, page, root, tmp_pat
 
 ROOFS = ["gable", "garden_wall", "parapet", "parapet_on_building", "pinnacle"]
 READY = [
+    "horizontal",
     *("compound", "corner", "elevation", "panel", "facade", "facade_strip", "tied_facade", "two_block"),
     *("elastic_strip", *ROOFS),
 ]

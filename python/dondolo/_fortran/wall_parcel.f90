@@ -21,7 +21,7 @@ module dondolo_wall_parcel
    implicit none
    private
 
-   public :: set_facts, set_positions, set_walls, walls_parcel_type
+   public :: set_facts, set_positions, set_walls, take_rows, walls_parcel_type
 
    !> Lines in one text: many of them would each be a thing of its own
    type :: block_type
@@ -158,6 +158,37 @@ contains
          facts = [model%multiplier, model%bound, merge(1.0_c_double, 0.0_c_double, [model%is_mirrored, model%is_image])]
       end select
    end subroutine set_facts
+
+   !> Take rows of a chain
+   subroutine take_rows(wall, table, numbers, count)
+      type(wall_type), intent(in) :: wall
+      !> 1 to 4: bodies, joints, actions, ties
+      integer(c_int), intent(in) :: table
+      !> The first of them, and how many there are
+      real(c_double), intent(inout) :: numbers(:)
+      integer(c_int), intent(inout) :: count
+
+      real(c_double), allocatable :: rows(:)
+
+      allocate (rows(0))
+      select type (model => wall%model)
+      type is (chain_model_type)
+         select case (table)
+         case (1)
+            rows = model%rows%bodies
+         case (2)
+            rows = model%rows%joints
+         case (3)
+            rows = model%rows%actions
+         case (4)
+            rows = model%rows%ties
+         end select
+      end select
+      count = size(rows)
+      associate (n => min(size(rows), size(numbers)))
+         numbers(:n) = rows(:n)
+      end associate
+   end subroutine take_rows
 
    !> Pack a wall as it was understood
    subroutine add_wall(self, wall)

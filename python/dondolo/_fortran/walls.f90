@@ -12,14 +12,14 @@ module walls
    use dondolo_population_table, only : population_table_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_parcel, only : set_facts, set_positions, set_walls, walls_parcel_type
+   use dondolo_wall_parcel, only : set_facts, set_positions, set_walls, take_rows, walls_parcel_type
    use dondolo_wall_strip_bending, only : pinned_period
    use dondolo_wall_tie_statics, only : ties_after
    implicit none
    private
 
-   public :: new_walls, describe_walls, wall_terms, chain_motion, chain_facts, bending_period, tie_states, open_anchors, tally_ties
-   public :: read_walls
+   public :: new_walls, describe_walls, wall_terms, chain_motion, chain_facts, chain_rows, bending_period, tie_states, open_anchors
+   public :: read_walls, tally_ties
 
 contains
 
@@ -147,6 +147,24 @@ contains
       if (.not. allocated(error)) call set_facts(wall(1), facts)
       call report(error, failure)
    end subroutine chain_facts
+
+   !> Numbers of the rows of a chain, of its bodies (1), joints (2), actions (3) or ties (4): the first n of them, and how many
+   !> there are
+   subroutine chain_rows(walls, table, n, numbers, count, failure)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: table, n
+      real(c_double), intent(out) :: numbers(n)
+      integer(c_int), intent(out) :: count
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(error_type), allocatable :: error
+
+      numbers = 0
+      count = 0
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call take_rows(wall(1), table, numbers, count)
+      call report(error, failure)
+   end subroutine chain_rows
 
    !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest
    !> rotations / capacity

@@ -153,6 +153,19 @@ def chain_facts(wall: Handle) -> ChainFacts:
     return ChainFacts(outwards, inwards, bound, mirrored > 0.0, image > 0.0)
 
 
+def chain_rows(wall: Handle, table: int) -> FloatArray:
+    """Numbers of the rows of a chain, one after the other: of its bodies (1), joints (2), actions (3) or ties (4)."""
+    # f2py takes no empty arrays
+    room = 1
+    while True:
+        numbers, count, failure = _core.walls.chain_rows(wall.number, table, room)
+        check(failure)
+        if count <= room:
+            found: FloatArray = numbers[:count]
+            return found
+        room = count
+
+
 def bending_period(wall: Handle, modulus: float) -> float:
     """Period of a strip between pinned ends [s], of a modulus of elasticity [Pa]; huge if its load buckles it."""
     period, failure = _core.walls.bending_period(wall.number, modulus)

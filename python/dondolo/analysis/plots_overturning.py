@@ -54,7 +54,7 @@ def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None, given: dict[st
     ax.set_xlim(edges[0], edges[-1])
     ax.set_ylim(0.0, spectrum.amplitude_ratio[-1])
     ax.set_xlabel(say("frequency of the pulse") + " $\\omega_p / p$")
-    one_block = spectrum.wall.mechanism not in ("two_block", "tabulated", "chain")
+    one_block = spectrum.wall.mechanism not in ("two_block", "tabulated", "chain", "horizontal")
     ratio = say("amplitude") + " $a_p / (g\\,\\tan\\alpha)$" if one_block else say("amplitude / trigger acceleration")
     style.y_label(ax, ratio)
     style.title(ax, f"{spectrum.wall.name}, {spectrum.pulse}", options)

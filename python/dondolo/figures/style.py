@@ -49,6 +49,7 @@ MECHANISMS: dict[str, tuple[str, Any]] = {
     "corner": (BLACK, (0, (1, 3))),
     "tabulated": (PURPLE, (0, (5, 1, 1, 1, 1, 1))),
     "chain": (BLACK, (0, (8, 2))),
+    "horizontal": (GREEN, (0, (8, 2, 1, 2))),
     "all": (RED, "-"),
 }
 
@@ -62,6 +63,7 @@ _NAMES = {
     "corner": _("corner"),
     "tabulated": _("tabulated"),
     "chain": _("chain of bodies"),
+    "horizontal": _("horizontal bending"),
     "all": _("all mechanisms"),
 }
 # Periods in the names of measures

@@ -21,7 +21,7 @@ from dondolo.reporting.parts import ROWS, captioned
 from dondolo.reporting.run import Run
 from dondolo.reporting.units import UNITS, Unit
 from dondolo.reporting.words import in_words
-from dondolo.walls.chains import TABLES, Chain
+from dondolo.walls.chains import TABLES, ChainWall
 from dondolo.walls.mechanisms import OneSidedWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
@@ -168,7 +168,7 @@ def _main_properties(people: Population, is_alike: bool) -> Table:
         values = [getattr(wall, what, None) for wall in walls]
         if any(value is not None for value in values):
             columns[what] = values
-    misfits = [wall.misfit if isinstance(wall, (Chain, TabulatedWall)) else None for wall in walls]
+    misfits = [wall.misfit if isinstance(wall, (ChainWall, TabulatedWall)) else None for wall in walls]
     if any(misfit is not None for misfit in misfits):
         columns["table_misfit"] = misfits
     notes = (Column(name, texts, True) for name, texts in people.notes.items())

@@ -267,7 +267,7 @@ class Bench:
             ],
             "wall": picture(wall),
             "unchecked": ties_without_anchor(wall),
-            "leans": wall.building is None and wall.mechanism in ("one_sided", "two_block", "corner"),
+            "leans": wall.building is None and wall.mechanism in ("one_sided", "two_block", "corner", "horizontal"),
         }
         if fit.has_fit:
             answer |= curve_points(fit, 1.04 * float(stripes.levels[-1]))
@@ -375,7 +375,7 @@ def refusal(error: DondoloError) -> dict[str, Any]:
 
 def chain_of_bodies() -> InputError:
     """The refusal of a chain, whose tables the page does not read."""
-    sentence = "mechanism = 'chain': the page shows walls of one block or two; run this case with dondolo"
+    sentence = "mechanism = 'chain': the page shows walls of one block or two, or in plan; run this case with dondolo"
     return InputError(sentence, errors=[Problem(sentence, "out_of_range", "mechanism", "&wall")])
 
 

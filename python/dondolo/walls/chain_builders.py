@@ -9,19 +9,18 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, argument_error, as_count, as_number, wrong_type
 from dondolo._fortran.library import constants
-from dondolo.walls.chain_actions import PointLoad, PointThrust
-from dondolo.walls.chain_parts import Body, Guide, Part, Pin, Sector
+from dondolo.walls.chain_actions import PointLoad
+from dondolo.walls.chain_parts import Body, Part, Pin, Sector
 from dondolo.walls.chains import Chain
+from dondolo.walls.horizontal import HorizontalBending
 from dondolo.walls.wall import DEFAULT
 
-# Places of the hinge that are compared in each interval, and halvings of the best of them
-_PLACES, _HALVINGS = 200, 60
 # How much two directions may differ / the lesser, as in the library
 _ALIKE = 0.02
 # Voussoirs of an arch: all fours of more joints take too long
@@ -41,7 +40,7 @@ def horizontal_bending(
     hinge_at: float | None = None,
     pushes: Sequence[tuple[float, float]] = (),
     name: str = DEFAULT,
-) -> Chain:
+) -> HorizontalBending:
     """A wall that bends horizontally between two transverse walls, an arch of two leaves in its thickness.
 
     It is a band of 1 m height: forces and masses of the chain are per metre of height. The transverse walls or ties
@@ -73,7 +72,7 @@ def horizontal_bending(
 
     Returns
     -------
-    Chain
+    HorizontalBending
 
     Raises
     ------
@@ -90,82 +89,26 @@ def horizontal_bending(
     --------
     >>> import dondolo as dd
     >>> band = dd.horizontal_bending(4.0, 0.45, 1900.0, thrust=25e3, hinge_depth=0.01, sides=2, restitution_value=0.74)
-    >>> float(band._rows("joint_table")[1, 4])
+    >>> band.hinge_x
     2.0
     """
-    whole = {"length": length, "thickness": thickness, "density": density, "thrust": thrust}
-    for what, value in whole.items():
-        if not as_number(what, value) > 0.0:
-            raise argument_error("out_of_range", what, f" = {value}: must be positive")
-    if hinge_depth is None and compressive_strength is None:
-        raise argument_error("not_given", "hinge_depth", ": must be given, or compressive_strength in its place")
-    depth = 0.0 if hinge_depth is None else as_number("hinge_depth", hinge_depth)
-    if compressive_strength is not None:
-        strength = as_number("compressive_strength", compressive_strength)
-        if not strength > 0.0:
-            raise argument_error("out_of_range", "compressive_strength", f" = {strength:g}: must be positive")
-        if hinge_depth is None:
-            depth = thrust / (1.7 * strength)
-        elif thrust > 1.7 * strength * depth:
-            most = 1.7 * strength * depth
-            raise argument_error(
-                "out_of_range", "thrust", f" = {thrust:g}: must be at most 0.85 f 2 u = {most:.6g} N/m, which crushes"
-                f" the masonry at hinges {depth:g} m behind the faces")  # fmt: skip
-    lever = thickness - 2.0 * depth
-    if not (depth >= 0.0 and lever > 0.0):
-        raise argument_error("out_of_range", "hinge_depth", f" = {depth:.6g}: must be 0 to half of the thickness")
-    for place, force in pushes:
-        if not (0.0 < as_number("pushes", place) < length and as_number("pushes", force) >= 0.0):
-            raise argument_error(
-                "out_of_range", "pushes", f": {place:g} m must lie within the wall, {force:g} be positive"
-            )
-    if hinge_at is None:
-        hinge_at = _weakest_place(length, thickness * density * constants().gravity, thrust * lever, pushes)
-    elif not 0.0 < as_number("hinge_at", hinge_at) < length:
-        raise argument_error("out_of_range", "hinge_at", f" = {hinge_at:g}: must lie within the wall of {length:g} m")
-    leaves = [
-        Body([Part([(0.0, a), (-thickness, a), (-thickness, b), (0.0, b)], width=1.0, density=density)])
-        for a, b in ((0.0, hinge_at), (hinge_at, length))
-    ]
-    end = (-depth, length)
-    return Chain(
-        height=length,
-        name=name,
-        bodies=leaves,
-        joints=[Pin(1, 0, (-depth, 0.0)), Pin(1, 2, (depth - thickness, hinge_at)), Guide(2, 0, end)],
-        actions=[
-            PointThrust(2, end, thrust, angle=-90.0),
-            *(
-                PointThrust(1 + (place > hinge_at), (-thickness, place), force)
-                for place, force in pushes
-                if force > 0.0
-            ),
-        ],
-        gravity_share=0.0,
-        sides=sides,
-        restitution_value=restitution_value,
-    )
-
-
-def _weakest_place(length: float, weight: float, moment: float, pushes: Sequence[tuple[float, float]]) -> float:
-    """Place of the hinge with the least multiplier: weight of the wall per metre, H s, and thrusts on it."""
-
-    def multiplier(at: float) -> float:
-        ratio = at / (length - at)
-        pushed = math.fsum(force * min(place, ratio * (length - place)) for place, force in pushes)
-        return (moment * (1.0 + ratio) - pushed) / (0.5 * weight * at * length)
-
-    if not pushes:
-        return 0.5 * length
-    places = sorted({0.0, length, *(place for place, _force in pushes)})
-    grid = [a + (b - a) * k / _PLACES for a, b in itertools.pairwise(places) for k in range(_PLACES + 1)]
-    best = min(grid[1:-1], key=multiplier)
-    step = max(b - a for a, b in itertools.pairwise(places)) / _PLACES
-    for _halving in range(_HALVINGS):
-        step *= 0.5
-        best = min((at for at in (best, best - step, best + step) if 0.0 < at < length), key=multiplier)
-    # To a micrometre: the multiplier is flat there
-    return round(best, 6)
+    given: dict[str, Any] = {
+        "length": length, "thickness": thickness, "density": density, "end_thrust": thrust, "hinge_x": hinge_at,
+        "sides": sides, "restitution_value": restitution_value, "name": name,
+    }  # fmt: skip
+    if pushes:
+        given |= {"push": [force for _place, force in pushes], "push_x": [place for place, _force in pushes]}
+    if hinge_depth is None or compressive_strength is None:
+        return HorizontalBending(**given, hinge_depth=hinge_depth, compressive_strength=compressive_strength)
+    # The thrust crushes the masonry as deep as the strength says.
+    crushed = HorizontalBending(**given, compressive_strength=compressive_strength).base_hinge_depth
+    depth = as_number("hinge_depth", hinge_depth)
+    if crushed > depth:
+        most = thrust * depth / crushed
+        raise argument_error(
+            "out_of_range", "thrust", f" = {thrust:g}: must be at most 0.85 f 2 u = {most:.6g} N/m, which crushes"
+            f" the masonry at hinges {depth:g} m behind the faces")  # fmt: skip
+    return HorizontalBending(**given, hinge_depth=depth)
 
 
 class _Stones(NamedTuple):

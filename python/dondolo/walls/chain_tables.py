@@ -14,7 +14,7 @@ from dondolo.walls.chain_actions import INERTIAS
 from dondolo.walls.chain_parts import MASS, SECTOR
 
 if TYPE_CHECKING:
-    from dondolo.walls.chains import Chain
+    from dondolo.walls.chains import ChainWall
 
 # Depths and heights below this are roundings of zero / height
 _ZERO = 1e-12
@@ -22,7 +22,7 @@ _ZERO = 1e-12
 _WORDS = {parts: word for word, parts in INERTIAS.items()}
 
 
-def write_tables(wall: Chain, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
+def write_tables(wall: ChainWall, prefix: str | os.PathLike[str]) -> tuple[Path, ...]:
     """Write the files of a chain: what begins with a prefix; they have all digits, but roundings of zero are 0."""
     least = _ZERO * float(wall.height)
     tables = {

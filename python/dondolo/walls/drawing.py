@@ -13,7 +13,7 @@ from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
 from dondolo.figures.wording import say
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.drawing_chain import draw_chain
 from dondolo.walls.drawing_loads import caption, draw_loads
 from dondolo.walls.elevation import axis_of, height_of
@@ -35,7 +35,7 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, given: dict[str, Any
     from matplotlib.patches import Polygon
 
     options = Options(given)
-    if isinstance(wall, Chain):
+    if isinstance(wall, ChainWall):
         return draw_chain(wall, rotation, ax, options, note)
     if isinstance(wall, TabulatedWall):
         return _draw_moment(wall, rotation, ax, options, note)

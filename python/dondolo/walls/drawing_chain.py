@@ -11,13 +11,13 @@ from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
 from dondolo.figures.wording import say
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_chain(wall: Chain, rotation: float, ax: Axes | None, options: Options, note: str) -> Axes:
+def draw_chain(wall: ChainWall, rotation: float, ax: Axes | None, options: Options, note: str) -> Axes:
     """Draw a chain at rest (dashed) and moved; towards its other side as its mirror image."""
     from matplotlib.patches import Polygon
 
@@ -28,10 +28,9 @@ def draw_chain(wall: Chain, rotation: float, ax: Axes | None, options: Options, 
         if not is_opening:
             ax.fill(*corners.T, facecolor="none", edgecolor=style.GREY, linestyle="--", linewidth=0.9)
     middle = _middle(wall)
-    for _, is_opening, corners in wall.outlines(rotation=abs(rotation)):
-        x = middle + side * (corners[:, 0] - middle)
+    for _, is_opening, corners in outlines_at(wall, rotation):
         look = {**own, "facecolor": "white"} if is_opening else options.look(Polygon, **own)
-        ax.fill(x, corners[:, 1], **look)
+        ax.fill(*corners.T, **look)
     _draw_joints(ax, wall, abs(rotation), side, middle)
     _draw_actions(ax, wall, abs(rotation), side, middle)
     for row, ends in zip(wall._rows("tie_table"), ends_of_ties(wall, abs(rotation)), strict=True):
@@ -50,14 +49,23 @@ def draw_chain(wall: Chain, rotation: float, ax: Axes | None, options: Options, 
     return ax
 
 
-def _middle(wall: Chain) -> float:
+def outlines_at(wall: ChainWall, rotation: float) -> list[tuple[int, bool, FloatArray]]:
+    """Outlines of a chain at a signed rotation: towards its other side it is its mirror image."""
+    side, middle = (-1.0 if rotation < 0.0 else 1.0), _middle(wall)
+    return [
+        (body, is_opening, np.column_stack([middle + side * (corners[:, 0] - middle), corners[:, 1]]))
+        for body, is_opening, corners in wall.outlines(rotation=abs(rotation))
+    ]
+
+
+def _middle(wall: ChainWall) -> float:
     """Line about which the motion to the other side is the mirror image [m]."""
     corners = [corners[:, 0] for _, _, corners in wall.outlines()]
     x = np.concatenate(corners) if corners else wall.motion(0.0).x
     return float(0.5 * (x.min() + x.max()))
 
 
-def _draw_joints(ax: Axes, wall: Chain, rotation: float, side: float, middle: float) -> None:
+def _draw_joints(ax: Axes, wall: ChainWall, rotation: float, side: float, middle: float) -> None:
     """Hinges as dots, guides as open squares."""
     for row in wall._rows("joint_table"):
         body = int(row[1]) or int(row[2])
@@ -67,7 +75,7 @@ def _draw_joints(ax: Axes, wall: Chain, rotation: float, side: float, middle: fl
         ax.plot(middle + side * (x - middle), y, linestyle="none", color=style.RED, markersize=6, zorder=4, **look)
 
 
-def ends_of_ties(wall: Chain, rotation: float) -> list[FloatArray]:
+def ends_of_ties(wall: ChainWall, rotation: float) -> list[FloatArray]:
     """Anchor of each tie at a rotation, and its other end, of a tie to the ground a point on its way there."""
     found, reach = [], 0.25 * max(wall.height, 1.0)
     for row in wall._rows("tie_table"):
@@ -82,7 +90,7 @@ def ends_of_ties(wall: Chain, rotation: float) -> list[FloatArray]:
     return found
 
 
-def _draw_actions(ax: Axes, wall: Chain, rotation: float, side: float, middle: float) -> None:
+def _draw_actions(ax: Axes, wall: ChainWall, rotation: float, side: float, middle: float) -> None:
     """Loads and thrusts as arrows with their values, pushed masses as squares."""
     size = 0.12 * max(wall.height, 1.0)
     for row in wall._rows("action_table"):

@@ -10,6 +10,7 @@ from dondolo._base.arguments import argument_error, as_number
 from dondolo._fortran.walls import WallData, bending_period
 from dondolo._storage.saved import part_of_results
 from dondolo.walls.chains import Chain
+from dondolo.walls.horizontal import HorizontalBending
 from dondolo.walls.parts import (
     DistributedSpring,
     InertialMass,
@@ -29,7 +30,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # What the package exports of the walls: a new mechanism is added here alone
-__all__ = ["Chain", "Corner", "FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
+__all__ = [
+    "Chain",
+    "Corner",
+    "FreeStandingWall",
+    "HorizontalBending",
+    "OneSidedWall",
+    "TabulatedWall",
+    "Terms",
+    "TwoBlockWall",
+    "Wall",
+]
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -106,7 +117,7 @@ class OneSidedWall(BlockWall):
     hinge_inertia : float, optional
         Its inertia about the hinge, with mass [kg m2/m].
     hinge_depth : float, optional
-        Depth of the hinge behind the outer face, of each hinge of two_block behind its face [m].
+        Depth of the hinge behind the outer face, of two_block and horizontal of each hinge behind its face [m].
     compressive_strength : float, optional
         Strength of the masonry, from which that depth follows [Pa].
     stress_block : float, optional
@@ -427,8 +438,8 @@ class Corner(MasonryWall):
         Greatest length of each wing behind the inner face of the other wall, up to the first opening; none if not given
         [m].
     hinge_depth : float, optional
-        Depth of the hinge behind the outer face, of each hinge of two_block behind its face [m]: of a corner behind its
-        outer edge, on the bisector. It or compressive_strength must be given.
+        Depth of the hinge behind the outer face, of two_block and horizontal of each hinge behind its face [m]:
+        of a corner behind its outer edge, on the bisector. It or compressive_strength must be given.
     compressive_strength : float, optional
         Strength of the masonry, from which that depth follows [Pa].
     stress_block : float, optional
@@ -484,7 +495,8 @@ class Corner(MasonryWall):
 
 
 MECHANISMS: dict[str, type[Wall]] = {
-    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, Corner, TabulatedWall, Chain)
+    kind.mechanism: kind
+    for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, Corner, TabulatedWall, Chain, HorizontalBending)
 }
 
 

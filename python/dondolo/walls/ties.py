@@ -14,7 +14,7 @@ from dondolo._fortran.tables import TableColumns, tie_columns
 from dondolo._fortran.walls import open_anchors, tie_states, tie_tallies
 from dondolo._storage.saved import part_of_results
 from dondolo.walls.chain_actions import PointTie
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import Corner
 from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.wall import Wall, upload
@@ -93,7 +93,7 @@ class Bar(NamedTuple):
 
 def given_ties(wall: Wall) -> tuple[Tie | PointTie, ...]:
     """The ties of a wall as they are given, of a chain as its rows have them."""
-    if isinstance(wall, Chain):
+    if isinstance(wall, ChainWall):
         return tuple(map(PointTie._of_row, wall._rows("tie_table").tolist()))
     return parts_of(wall, "ties")
 

@@ -76,7 +76,7 @@ class Terms(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Wall:
-    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall`, `Corner`,
+    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall`, `Corner`, `HorizontalBending`,
     `TabulatedWall` or `Chain`.
 
     Every number that is left out (None) gets its default from the Fortran library and is then an attribute of the wall.
@@ -117,8 +117,8 @@ class Wall:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
             raise TypeError(
-                "Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall, Corner, TabulatedWall or"
-                " Chain"
+                "Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall, Corner, HorizontalBending,"
+                " TabulatedWall or Chain"
             )
         if self.building is not None:
             instance_of("building", self.building, Building)

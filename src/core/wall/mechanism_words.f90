@@ -16,13 +16,13 @@ module dondolo_wall_mechanism_words
    end type word_type
 
    character(len=*), parameter :: arches = 'mechanism = ''chain'', whose tables dd.arch of Python finds and writes '// &
-      & '(docs/chains.md)', bands = 'mechanism = ''chain'', whose tables dd.horizontal_bending of Python writes (docs/chains.md)', &
+      & '(docs/chains.md)', bands = 'mechanism = ''horizontal'' (docs/chains.md)', &
       & wedges = 'mechanism = ''one_sided'' with wedge_thickness and the others of wedges (docs/mechanisms.md)', &
       & panels = 'mechanism = ''one_sided'' with elevation_x, elevation_z, axis_x and axis_z (docs/mechanisms.md)', &
       & chains = 'mechanism = ''chain'', from tables of its bodies and joints (docs/chains.md)'
 
    type(word_type), parameter :: words(*) = [word_type('arch', arches), word_type('portal', arches), &
-      & word_type('horizontal', bands), word_type('horizontal_bending', bands), word_type('compound', wedges), &
+      & word_type('horizontal_bending', bands), word_type('compound', wedges), &
       & word_type('wedge', wedges), word_type('panel', panels), word_type('gable', panels), word_type('frame', chains), &
       & word_type('cavity', chains), word_type('strip', 'mechanism = ''two_block'', of several storeys ''chain'' '// &
       & '(docs/chains.md)'), word_type('vertical_bending', 'mechanism = ''two_block'', of several storeys ''chain'' '// &

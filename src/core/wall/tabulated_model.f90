@@ -16,17 +16,18 @@ module dondolo_wall_tabulated_model
    implicit none
    private
 
-   public :: chain_name, check_column_names, tabulated_model_type, tabulated_name, tabulated_rows, term_names
+   public :: chain_name, check_column_names, horizontal_name, tabulated_model_type, tabulated_name, tabulated_rows, term_names
 
    !> Name of the mechanism
    character(len=choices_length), parameter :: tabulated_name = 'tabulated'
 
-   !> Name of that whose table follows from the joints of rigid bodies (dondolo_wall_chain_model)
-   character(len=choices_length), parameter :: chain_name = 'chain'
+   !> Names of those whose table follows from the joints of rigid bodies (dondolo_wall_chain_model): given by themselves, or those
+   !> of a wall that bends horizontally (dondolo_wall_horizontal)
+   character(len=choices_length), parameter :: chain_name = 'chain', horizontal_name = 'horizontal'
 
-   !> Owners of what both have
-   character(len=choices_length), parameter :: sampled(most_choices) = reshape([tabulated_name, chain_name], [most_choices], &
-      & pad=blank)
+   !> Owners of what all of them have
+   character(len=choices_length), parameter :: sampled(most_choices) = reshape([tabulated_name, chain_name, horizontal_name], &
+      & [most_choices], pad=blank)
 
    !> Owners of what it alone has
    character(len=choices_length), parameter :: tabulated(most_choices) = reshape([tabulated_name], [most_choices], pad=blank)

@@ -17,7 +17,7 @@ module dondolo_wall
    use dondolo_wall_restitution, only : impact_models_type, restitution_type
    use dondolo_wall_restitution_scatter, only : new_restitution_scatter
    use dondolo_wall_specimen, only : specimen_type
-   use dondolo_wall_tabulated_model, only : chain_name, tabulated_model_type, tabulated_name
+   use dondolo_wall_tabulated_model, only : chain_name, horizontal_name, tabulated_model_type, tabulated_name
    use dondolo_wall_two_block_model, only : two_block_model_type, two_block_name
    implicit none
    private
@@ -123,7 +123,7 @@ contains
          allocate (two_block_model_type :: model)
       case (tabulated_name)
          allocate (tabulated_model_type :: model)
-      case (chain_name)
+      case (chain_name, horizontal_name)
          allocate (chain_model_type :: model)
       case default
          allocate (one_block_model_type :: model)

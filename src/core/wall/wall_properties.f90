@@ -13,9 +13,10 @@ module dondolo_wall_properties
    use dondolo_wall_corner, only : corner_name, corner_rows
    use dondolo_wall_elevation, only : elevation_rows
    use dondolo_wall_free_wall, only : free_rows
+   use dondolo_wall_horizontal, only : horizontal_rows
    use dondolo_wall_one_block_model, only : one_block_action_rows, one_block_body_rows, one_block_names
    use dondolo_wall_restitution, only : restitution_models
-   use dondolo_wall_tabulated_model, only : chain_name, tabulated_name, tabulated_rows
+   use dondolo_wall_tabulated_model, only : chain_name, horizontal_name, tabulated_name, tabulated_rows
    use dondolo_wall_two_block_model, only : two_block_hinge_rows, two_block_joint_rows, &
       & two_block_load_rows, two_block_name
    use dondolo_wall_wedge, only : wedge_rows
@@ -29,11 +30,11 @@ module dondolo_wall_properties
    !> Names of the mechanisms of blocks of masonry, and of all
    character(len=choices_length), parameter :: masonry_names(*) = [one_block_names, two_block_name]
    character(len=choices_length), parameter :: mechanism_names(*) = [masonry_names, corner_name, tabulated_name, &
-      & chain_name]
+      & chain_name, horizontal_name]
 
-   !> Owners of what blocks of masonry have
+   !> Owners of what walls with a thickness have
    character(len=choices_length), parameter :: of_blocks(most_choices) = &
-      & reshape([masonry_names, corner_name], [most_choices], pad=blank)
+      & reshape([masonry_names, corner_name, horizontal_name], [most_choices], pad=blank)
 
    !> What every wall has
    type(property_type), parameter :: general_rows(*) = [ &
@@ -41,7 +42,7 @@ module dondolo_wall_properties
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   checked_by_owner=.true., example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
-      &   example='3.0', meaning='height of the wall', instead='section_height, elevation_z', &
+      &   example='3.0', meaning='height of the wall', instead='section_height, elevation_z, length', &
       &   usual_most=60.0_wp), &
       & property_type('thickness', unit='m', owners=of_blocks, required=.true., positive=.true., smallest=1.0e-3_wp, &
       &   largest=1.0e3_wp, example='0.25', meaning='thickness of the wall', instead='section_thickness', usual_most=3.0_wp), &
@@ -54,7 +55,7 @@ module dondolo_wall_properties
       & property_type('hinge_depth', unit='m', owners=of_blocks, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e3_wp, example='0.02', not_with='compressive_strength', neutral=0.0_wp, &
       &   usual_most=1.0_wp, &
-      &   meaning='depth of the hinge behind the outer face, of each hinge of two_block behind its face'), &
+      &   meaning='depth of the hinge behind the outer face, of two_block and horizontal of each hinge behind its face'), &
       & property_type('compressive_strength', unit='Pa', owners=of_blocks, optional=.true., positive=.true., &
       &   largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, &
       &   example='2.0e6', &
@@ -89,7 +90,7 @@ module dondolo_wall_properties
    type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, wedge_rows, elevation_rows, &
       & axis_rows, corner_rows, hinge_rows, &
       & one_block_action_rows, free_rows, two_block_hinge_rows, two_block_joint_rows, impact_rows, two_block_load_rows, &
-      & tabulated_rows, chain_rows]
+      & tabulated_rows, chain_rows, horizontal_rows]
 
    !> The same, and those of the building that a wall stands on
    type(property_type), parameter :: rows(*) = [own_rows, building_rows]

@@ -224,11 +224,15 @@ contains
 
       character(len=*), parameter :: names(3) = [character(len=12) :: 'tie_modulus', 'tie_strength', 'tie_strain']
       integer, parameter :: places(3) = [10, 11, 13]
-      integer :: i
+      real(wp) :: usual
+      integer :: i, k
 
       numbers = rows
       do i = 1, size(names)
-         where (.not. abs(rows(places(i), :)) > 0.0_wp) numbers(places(i), :) = input%absent(trim(names(i)))
+         usual = input%absent(trim(names(i)))
+         do k = 1, size(rows, 2)
+            if (.not. abs(rows(places(i), k)) > 0.0_wp) numbers(places(i), k) = usual
+         end do
       end do
    end function numbers_of_ties
 

@@ -21,7 +21,7 @@ from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import Turning, of_tie, ties_left_out, turning_of
 from dondolo.reporting.relazione.tabulated import table_steps
 from dondolo.reporting.units import UNITS, Unit, cell
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.ties import ties_of
 
@@ -41,7 +41,7 @@ def shown(value: float, unit: Unit = UNITS[""], figures: int = FIGURES) -> Numer
 
 def end_of(document: Document, one: Subject) -> list[Block]:
     """Steps to d_0*."""
-    if isinstance(one.wall, (TabulatedWall, Chain)):
+    if isinstance(one.wall, (TabulatedWall, ChainWall)):
         return table_steps(document, one)
     if isinstance(one.wall, TwoBlockWall):
         return _strip(document, one)

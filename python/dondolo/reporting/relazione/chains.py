@@ -24,7 +24,7 @@ from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import of_tie
 from dondolo.reporting.units import UNITS, Unit, cell
 from dondolo.walls.chain_parts import Point
-from dondolo.walls.chains import Chain, ChainMotion
+from dondolo.walls.chains import Chain, ChainMotion, ChainWall
 from dondolo.walls.drawing_chain import ends_of_ties
 from dondolo.walls.ties import ties_of
 from dondolo.walls.wall import upload
@@ -43,7 +43,7 @@ _TONNES = Unit("t", 1e-3)
 _LETTERS = {"load": "N", "mass": "Q", "thrust": "H"}
 
 
-def named_actions(wall: Chain) -> list[tuple[str, FloatArray]]:
+def named_actions(wall: ChainWall) -> list[tuple[str, FloatArray]]:
     """The rows of what acts on bodies that move, each with its item in the calculation."""
     found, counts = [], dict.fromkeys(_LETTERS, 0)
     for row in wall._rows("action_table"):
@@ -58,7 +58,7 @@ def named_actions(wall: Chain) -> list[tuple[str, FloatArray]]:
 def terms_of_chain(one: Subject) -> tuple[FloatArray, dict[str, FloatArray]]:
     """Rotations up to the capacity, and over them the moment M, the lever S = ΣP x' and the displacement d."""
     wall = one.wall
-    assert isinstance(wall, Chain)
+    assert isinstance(wall, ChainWall)
     rotation = 0.5 * wall.capacity_angle * (1.0 - np.cos(np.pi * np.arange(_NODES + 1) / _NODES))
     at = wall.motion(rotation)
     actions = dict(named_actions(wall))
@@ -79,7 +79,7 @@ def terms_of_chain(one: Subject) -> tuple[FloatArray, dict[str, FloatArray]]:
     side = np.sign(np.dot(first, [place[-1] for place in places]))
     moved = Chebyshev.fit(rotation, side * np.dot(weights, places), _DEGREE, domain=[0.0, rotation[-1]])
     # Ties are added where they hold.
-    terms = replace(wall, tie_table=None).terms(rotation)
+    terms = (replace(wall, tie_table=None) if isinstance(wall, Chain) else wall).terms(rotation)
     columns = {
         "M": np.asarray(terms.restoring_moment - terms.load_force),
         "S": moved.deriv()(rotation),
@@ -115,7 +115,7 @@ class TieOfChain(NamedTuple):
 def ties_over(one: Subject, rotation: FloatArray) -> list[TieOfChain]:
     """The ties of a chain, by the places of their ends at some rotations."""
     wall = one.wall
-    assert isinstance(wall, Chain)
+    assert isinstance(wall, ChainWall)
     at = wall.motion(rotation)
     items = [item for item in one.check.items if item.item.startswith("tie")]
     found = []
@@ -147,7 +147,7 @@ def _places(at: ChainMotion, body: int, point: Point) -> FloatArray:
 
 def scheme(document: Document, one: Subject, name: str) -> list[Block]:
     """The drawing of a chain, and the tables of its bodies, joints and actions."""
-    assert isinstance(one.wall, Chain)
+    assert isinstance(one.wall, ChainWall)
     picture = Picture(
         lambda: draw_chain(document, one),
         document.titled(document.text(_("Bodies, hinges and loads; the mechanism displaced")), name),
@@ -159,7 +159,7 @@ def scheme(document: Document, one: Subject, name: str) -> list[Block]:
 
 def _bodies(document: Document, one: Subject, name: str) -> CaptionedTable:
     """Masses and centroids."""
-    assert isinstance(one.wall, Chain)
+    assert isinstance(one.wall, ChainWall)
     rest = one.wall.motion(0.0)
     items = [item for item in one.check.items if item.item.startswith("body ")]
     columns: dict[Piece, Any] = {
@@ -172,7 +172,7 @@ def _bodies(document: Document, one: Subject, name: str) -> CaptionedTable:
     return CaptionedTable(Table.of(columns), caption)
 
 
-def _joints(document: Document, wall: Chain, name: str) -> CaptionedTable:
+def _joints(document: Document, wall: ChainWall, name: str) -> CaptionedTable:
     """Hinges and guides."""
     stands = bool((wall._rows("body_table")[:, 0] == 0.0).any())
     still = document.text(_("ground, or masonry that stands still") if stands else _("ground"))
@@ -199,7 +199,7 @@ def _joints(document: Document, wall: Chain, name: str) -> CaptionedTable:
     return CaptionedTable(Table.of(columns, words), document.titled(document.text(_("Joints of the chain")), name))
 
 
-def _actions(document: Document, wall: Chain, name: str) -> list[CaptionedTable]:
+def _actions(document: Document, wall: ChainWall, name: str) -> list[CaptionedTable]:
     """What acts on the bodies that move."""
     rows = named_actions(wall)
     if not rows:
@@ -232,9 +232,9 @@ def _actions(document: Document, wall: Chain, name: str) -> list[CaptionedTable]
     return [CaptionedTable(Table.of(columns, words), document.titled(document.text(_("Actions on the chain")), name))]
 
 
-def _plane(document: Document, wall: Chain) -> list[Block]:
+def _plane(document: Document, wall: ChainWall) -> list[Block]:
     """What of gravity acts in the plane of the motion, where it is not all of it."""
-    share = 1.0 if wall.gravity_share is None else wall.gravity_share
+    share = wall._share()
     if share == 0.0:
         words = _(
             "The plane of the motion is the plan: heights are places along the wall. Gravity acts normal to it, so that"
@@ -247,7 +247,7 @@ def _plane(document: Document, wall: Chain) -> list[Block]:
     return []
 
 
-def _sides(document: Document, wall: Chain) -> list[Block]:
+def _sides(document: Document, wall: ChainWall) -> list[Block]:
     """The motion to the other side, and the restitution with its bound."""
     facts = chain_facts(upload((wall,)))
     blocks: list[Block] = []
@@ -286,7 +286,7 @@ def draw_chain(document: Document, one: Subject) -> Any:
     from matplotlib.patches import Polygon
 
     wall = one.wall
-    assert isinstance(wall, Chain)
+    assert isinstance(wall, ChainWall)
     rest, moved = style.new_axes(1, (6.6, 4.4), 2)
     rotation = _DRAWN * wall.capacity_angle
     for ax, q in ((rest, 0.0), (moved, rotation)):
@@ -322,7 +322,7 @@ def draw_chain(document: Document, one: Subject) -> Any:
     return rest
 
 
-def _limits(wall: Chain, rotation: float) -> tuple[FloatArray, FloatArray]:
+def _limits(wall: ChainWall, rotation: float) -> tuple[FloatArray, FloatArray]:
     """Corners of what is drawn at rest and displaced, with room for loads and their words."""
     points = [corners for q in (0.0, rotation) for _body, _is_opening, corners in wall.outlines(rotation=q)]
     points += [np.array([(-row[3], row[4])]) for row in wall._rows("joint_table")]
@@ -335,7 +335,7 @@ def _limits(wall: Chain, rotation: float) -> tuple[FloatArray, FloatArray]:
     return low - room, high + room * np.array([1.6, 1.2])
 
 
-def _arrows(document: Document, ax: Any, wall: Chain) -> None:
+def _arrows(document: Document, ax: Any, wall: ChainWall) -> None:
     """Loads, masses and thrusts on a chain at rest."""
     size = 0.12 * max(wall.height, 1.0)
     for item, row in named_actions(wall):

@@ -33,7 +33,7 @@ from dondolo.reporting.relazione.sums import (
 )
 from dondolo.reporting.relazione.tabulated import table_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell, quantity
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.ties import ties_of
 
@@ -76,7 +76,7 @@ def mechanism(document: Document) -> list[Block]:
             )
             blocks += table_of(document, one)
             continue
-        if isinstance(one.wall, Chain):
+        if isinstance(one.wall, ChainWall):
             blocks += scheme(document, one, name)
             continue
         blocks.append(

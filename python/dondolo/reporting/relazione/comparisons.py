@@ -14,7 +14,7 @@ from dondolo.reporting.relazione.capacity import shown
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.sums import Turning, sums_of, turning_of
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 
 # T_SLV of a curve of capacity that is a straight line: 1.68 pi sqrt(0.4/0.6)
@@ -97,7 +97,7 @@ def _bare_displacement(one: Subject) -> float:
 
     NaN of a table, whose moment is all that holds it and pushes it, and of a chain, whose weights move apart.
     """
-    if isinstance(one.wall, (TabulatedWall, Chain)):
+    if isinstance(one.wall, (TabulatedWall, ChainWall)):
         return math.nan
     if isinstance(one.wall, TwoBlockWall):
         return one.check.items[0].arm

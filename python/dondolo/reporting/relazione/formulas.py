@@ -19,7 +19,7 @@ from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.sums import sums_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 
 # Figures of what is to be calculated again by hand
@@ -71,7 +71,7 @@ def formulas_of(document: Document, row: SheetRow, check: CodeCheck, symbol: str
         Of the quantity; '' for that of the row.
     """
     units = {one.symbol: one.unit for one in check.rows} | _GIVEN
-    if isinstance(check.wall, (Chain, Corner)):
+    if isinstance(check.wall, (ChainWall, Corner)):
         units = {name: unit.removesuffix("/m") for name, unit in units.items()}
     # Numbers in formulas have eight figures, of which six would be rounded twice.
     exact = {f"{value:.8g}": value for value in (*(one.value for one in check.rows), *sums_of(check.items).values())}
@@ -85,7 +85,7 @@ def formulas_of(document: Document, row: SheetRow, check: CodeCheck, symbol: str
         [cell(exact.get(value, float(value)), unit, FIGURES) for value, unit in zip(values, scales, strict=True)]
     )
     # Levers of the weights: heights of walls that turn about their base, displacements of strips, chains and tables
-    lever = "d_x" if isinstance(check.wall, (TabulatedWall, TwoBlockWall, Chain)) else "z"
+    lever = "d_x" if isinstance(check.wall, (TabulatedWall, TwoBlockWall, ChainWall)) else "z"
     symbols = _Reader(row.expression, " ", lambda name: _symbol(name, lever)).all()
     numbers = _Reader(row.numbers, " · ", lambda _text: next(numerals)).all()
     unit = _coherent(row.unit) if is_known else Unit(row.unit.replace("2", "²"))

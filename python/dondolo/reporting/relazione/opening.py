@@ -25,7 +25,8 @@ from dondolo.reporting.relazione.sums import of_tie
 from dondolo.reporting.relazione.ties import open_ties_of
 from dondolo.reporting.tested import sentences
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import Chain, ChainWall
+from dondolo.walls.horizontal import HorizontalBending
 from dondolo.walls.mechanisms import Corner, OneSidedWall, TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.ties import ties_of
@@ -287,7 +288,12 @@ def modelling(document: Document) -> list[Block]:
         if parts_of(one.wall, "wedges"):
             words = document.text(_("compound overturning outwards, with wedges of the transverse walls"))
         height = quantity(one.wall.height, UNITS["m"])
-        if isinstance(one.wall, (TabulatedWall, Chain)):
+        if isinstance(one.wall, HorizontalBending):
+            sentence = _("{wall}: {mechanism}, length {length}, thickness {thickness}.")
+            sizes = {"length": height, "thickness": quantity(one.wall.thickness, CENTIMETRES)}
+            blocks.append(document.say(sentence, wall=name, mechanism=words, **sizes))
+            continue
+        if isinstance(one.wall, (TabulatedWall, ChainWall)):
             sentence = _("{wall}: {mechanism}, height {height}.")
             blocks.append(document.say(sentence, wall=name, mechanism=words, height=height))
             continue
@@ -340,6 +346,17 @@ def modelling(document: Document) -> list[Block]:
             " and displacements, and the displacement of the equivalent oscillator with C8.7.1.4."
         )
         blocks.append(document.say(words))
+    if any(isinstance(wall, HorizontalBending) for wall in walls):
+        words = _(
+            "A wall that bends horizontally is an arch of two leaves in its thickness, a band of 1 m height with one"
+            " degree of freedom. A constant thrust holds its ends, the least of what ties and transverse walls can"
+            " take, which the designer gives; weights neither hold the leaves nor push them, and torsion of the masonry"
+            " above and below is neglected. The hinge between the leaves is where {alpha} is least, unless its place is"
+            " given. {alpha} follows from virtual work of all forces, {d0} from the finite displacements of the leaves,"
+            " with the mean of C8.7.1.4 over all weights as the control point. No leaf slides."
+        )
+        blocks.append(document.say(words, alpha=symbol_of("alpha_0"), d0=symbol_of("d_0*")))
+        blocks += document.written("end_thrust", _("what thrust ties and transverse walls can take, and why"))
     if any(isinstance(wall, Chain) for wall in walls):
         words = _(
             "A chain is made of rigid bodies with hinges between them, which the designer chooses, and has one degree"
@@ -443,6 +460,10 @@ def actions(document: Document) -> list[Block]:
             " loads are increased by the part {psi} of variable ones."
         )
         whole = [document.say(words, psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")))]
+    words = _("{wall}: forces are those of a band of 1 m height, heights are places along the wall.")
+    whole += [
+        document.say(words, wall=name) for name, one in document.each() if isinstance(one.wall, HorizontalBending)
+    ]
     return [
         Heading(document.text(_("Actions and seismic combination"))),
         *whole,

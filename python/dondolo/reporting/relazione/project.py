@@ -24,6 +24,7 @@ TEXTS = (
     "tests",
     "mechanism",
     "inward_rotation",
+    "end_thrust",
     "chain_hinges",
     "load_analysis",
     "combinations",

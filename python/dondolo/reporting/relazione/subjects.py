@@ -14,7 +14,7 @@ from dondolo.errors import InputError, Problem
 from dondolo.exchange.results import Results
 from dondolo.reporting.units import UNITS, Unit
 from dondolo.reporting.words import BENDING
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import Corner, TabulatedWall, TwoBlockWall
 from dondolo.walls.wall import MasonryWall, Wall
 
@@ -28,7 +28,7 @@ class Subject:
 
     Attributes
     ----------
-    wall : MasonryWall, TabulatedWall or Chain
+    wall : MasonryWall, TabulatedWall or ChainWall
     check : CodeCheck
     curve : Fragility or None
         Of collapse.
@@ -36,13 +36,13 @@ class Subject:
         The run that it is of.
     """
 
-    wall: MasonryWall | TabulatedWall | Chain
+    wall: MasonryWall | TabulatedWall | ChainWall
     check: CodeCheck
     curve: Fragility | None
     results: Results
 
     @property
-    def checked(self) -> MasonryWall | TabulatedWall | Chain:
+    def checked(self) -> MasonryWall | TabulatedWall | ChainWall:
         """The wall that is checked: a strip with the hinge of its check."""
         if not isinstance(self.wall, TwoBlockWall):
             return self.wall
@@ -51,12 +51,12 @@ class Subject:
     @property
     def is_turning(self) -> bool:
         """Whether it is a wall of masonry that turns about its base, neither a strip nor a chain nor a table."""
-        return not isinstance(self.wall, (TwoBlockWall, TabulatedWall, Chain))
+        return not isinstance(self.wall, (TwoBlockWall, TabulatedWall, ChainWall))
 
     @property
     def is_whole(self) -> bool:
         """Whether masses and forces are those of a whole body, and not per metre of wall."""
-        return isinstance(self.wall, (Chain, Corner))
+        return isinstance(self.wall, (ChainWall, Corner))
 
     def unit(self, name: str) -> Unit:
         """The unit in which a document has what is per metre of wall, or in all."""
@@ -206,7 +206,7 @@ def _need_same(several: Sequence[Subject], what: Mapping[str, Callable[[Subject]
             raise InputError(sentence, errors=[Problem(sentence, "not_together", differing[0])])
 
 
-def _checked(wall: Wall) -> MasonryWall | TabulatedWall | Chain:
+def _checked(wall: Wall) -> MasonryWall | TabulatedWall | ChainWall:
     """A wall as one of the kinds whose parts the chapters name."""
-    assert isinstance(wall, (MasonryWall, TabulatedWall, Chain))
+    assert isinstance(wall, (MasonryWall, TabulatedWall, ChainWall))
     return wall

@@ -22,7 +22,7 @@ from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.formulas import FIGURES
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import UNITS, Unit, cell
-from dondolo.walls.chains import Chain
+from dondolo.walls.chains import ChainWall
 from dondolo.walls.mechanisms import TabulatedWall
 
 # Rows of the table that are printed, and how well the steps give the numbers of the check
@@ -154,7 +154,7 @@ def _column(values: Sequence[float] | FloatArray, unit: Unit = UNITS[""]) -> lis
 def table_steps(document: Document, one: Subject) -> list[Block]:
     """The terms of the table at d_0* and at d_C, and the capacity that follows, a column each."""
     places = _places(one, Terms(one))
-    is_chain = isinstance(one.wall, Chain)
+    is_chain = isinstance(one.wall, ChainWall)
     if not places and is_chain:
         words = _(
             "Positions of the bodies do not give {d0} and {a} here as the calculation has them: they are those of the"

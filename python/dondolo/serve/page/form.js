@@ -8,6 +8,11 @@ const FIELDS = {
   height: [0.5, 15, 0.05, 1, "m", 2],
   thickness: [0.1, 1.2, 0.01, 1, "m", 2],
   density: [1000, 2600, 10, 1, "kg/m³", 0],
+  length: [1, 12, 0.05, 1, "m", 2],
+  end_thrust: [1, 120, 0.5, 1e-3, "kN/m", 1],
+  hinge_x: [0.2, 12, 0.05, 1, "m", 2],
+  push: [0, 5, 0.05, 1e-3, "kN/m", 2],
+  push_x: [0.1, 12, 0.05, 1, "m", 2],
   hinge: [0.3, 0.9, 0.01, 1, "", 2],
   overburden: [0, 60, 0.5, 1e-3, "kN/m", 1],
   overburden_inertia: [0, 1, 0.05, 1, "", 2],
@@ -66,15 +71,18 @@ const PARTS = {
   loads: { word: "load", owners: ["one_sided", "free_standing"] },
   thrusts: { word: "thrust", owners: ["one_sided", "free_standing"] },
   ties: { word: "tie", owners: ["one_sided"] },
+  pushes: { word: "push", owners: ["horizontal"] },
 };
 const WALL = [
   "height",
+  "length",
   "thickness",
   "density",
   "hinge",
   "overburden",
   "overburden_inertia",
   "eccentricity",
+  "end_thrust",
   "compressive_strength",
 ];
 const BUILDING = ["period", "damping", "storeys", "level", "level_top", "building_height"];
@@ -112,7 +120,10 @@ const KINDS = {
   one_sided: '<path d="M4 27h22M7 27V6h4v21M15 27 19 7l5 1-4 19z"/>',
   free_standing: '<path d="M4 27h22M13 27V8h5v19M8 10a9 9 0 0 0-3 5m17-5a9 9 0 0 1 3 5"/>',
   two_block: '<path d="M4 27h22M4 4h22M13 27l5-11-5-12m-4 23 5-11-5-12M9 27h4M9 4h4"/>',
+  horizontal: '<path d="M3 4v14h4V4M23 4v14h4V4M7 13l8 5 8-5M7 18l8 6 8-6"/>',
 };
+// What a wall has that bends horizontally, before it is given
+const BAND = { length: 5, end_thrust: 25e3, compressive_strength: 1.5e6, sides: 1, restitution_value: 0.7 };
 // What the form had before another kind of wall, or of hazard, was chosen
 /** @type {Record<string, any>} */
 const kept = {};
@@ -360,6 +371,7 @@ function addPart(kind) {
     load: { load: 10e3, load_height: top, load_depth: clean(Math.min(0.2, t0 / 2)) },
     thrust: { thrust: 500, thrust_height: top },
     tie: { tie_height: clean(Math.max(0.2, top - 0.3)), tie_bar: 0.016, tie_spacing: 2, tie_length: 6 },
+    push: { push: 300, push_x: clean(top / 2) },
   }[word];
   if (word === "section" && !count) {
     w.section_height = [clean(top / 2)];
@@ -391,15 +403,16 @@ function removePart(kind, place) {
   state.fan = null;
   again();
 }
-export const heightOf = () => wall().height ?? clean((wall().section_height || [3]).reduce((a, b) => a + b, 0));
+export const heightOf = () => wall().height ?? wall().length ?? clean((wall().section_height || [3]).reduce((a, b) => a + b, 0));
 export const thicknessOf = () => wall().thickness ?? wall().section_thickness?.[0] ?? 0.3;
 
 function changeKind(kind) {
   const old = wall(),
     next = kept[kind] ? { ...kept[kind] } : { mechanism: kind };
   kept[old.mechanism] = { ...old };
+  if (kind === "horizontal" && !kept[kind]) Object.assign(next, BAND);
   if (!("section_height" in next)) {
-    next.height = heightOf();
+    if (kind !== "horizontal") next.height = heightOf();
     next.thickness = thicknessOf();
   }
   for (const name of ["density", "name"])

@@ -1,9 +1,59 @@
 // The wall to scale, what it carries and what holds it, and its motion.
 import { num, picture, safe, t, tag } from "./words.js";
 
+// A force from a point to another
+function arrow(xa, ya, xb, yb) {
+  const a = Math.atan2(yb - ya, xb - xa),
+    p = (d) => `${(xb - 8 * Math.cos(a + d)).toFixed(1)},${(yb - 8 * Math.sin(a + d)).toFixed(1)}`;
+  const head = tag("polygon", { class: "force-head", points: `${xb},${yb} ${p(0.42)} ${p(-0.42)}` });
+  return tag("line", { class: "force", x1: xa, y1: ya, x2: xb, y2: yb }) + head;
+}
+
+// SVG of a wall that bends horizontally, in its plan: outwards is down, the transverse walls are behind its ends
+function plan(wall, blocks) {
+  const { length, thickness } = wall,
+    ends = 0.12 * length,
+    behind = 0.26 * length,
+    out = Math.max(0.15 * length, ...wall.leaning.flat().map(([, y]) => 1.25 * y)),
+    scale = 250 / length,
+    left = ends + 64 / scale;
+  const X = (x) => +((x + left) * scale).toFixed(1),
+    Y = (y) => +((y + thickness + behind) * scale + 4).toFixed(1),
+    below = Y(out) + 6;
+  const shape = (points) => points.map(([x, y]) => `${X(x)},${Y(y)}`).join(" ");
+  const label = (x, y, text, more = {}) => tag("text", { class: "small halo", x, y, ...more }, text);
+  const kn = (force) => `${num(force / 1e3, force < 1e4 ? 2 : 0)} kN/m`;
+  const parts = [-ends, length].map((x) =>
+    tag("rect", { class: "behind", x: X(x), y: Y(-thickness - behind), width: ends * scale, height: Y(0) - 4 }),
+  );
+  parts.push(label(X(0.5 * length), Y(-thickness - behind) + 12, t("transverse_walls"), { "text-anchor": "middle" }));
+  for (const block of blocks ? wall.rest : wall.leaning) parts.push(`<polygon class="ghost" points="${shape(block)}"/>`);
+  for (const block of blocks || wall.rest) parts.push(`<polygon class="body" points="${shape(block)}"/>`);
+  if (!blocks) for (const [x, y] of wall.hinges) parts.push(`<circle class="hinge" cx="${X(x)}" cy="${Y(y)}" r="3.4"/>`);
+  const level = Y(wall.hinges[0][1]);
+  parts.push(
+    arrow(X(-ends) - 34, level, X(-ends), level),
+    arrow(X(length + ends) + 34, level, X(length + ends), level),
+    label(X(-ends) - 4, level - 8, kn(wall.thrust), { "text-anchor": "end" }),
+  );
+  for (const [place, force] of wall.pushes)
+    if (force > 0)
+      parts.push(
+        arrow(X(place), Y(-thickness) - 30, X(place), Y(-thickness)),
+        label(X(place) + 5, Y(-thickness) - 16, kn(force)),
+      );
+  parts.push(
+    tag("path", { class: "axis", d: `M${X(0)} ${below}H${X(length)}M${X(0)} ${below - 4}v8M${X(length)} ${below - 4}v8` }),
+    label(X(0.5 * length), below + 16, `${num(length, 2)} m`, { "text-anchor": "middle" }),
+    label(X(length) + 6, Y(0) + 16, `${num(thickness, 2)} m`),
+  );
+  return picture((2 * X(0) + length * scale).toFixed(0), (below + 24).toFixed(0), t("wall_alt"), parts);
+}
+
 // SVG of the wall; blocks: where it is now, at rest if left out
 export function drawing(wall, blocks) {
   if (!wall) return `<p class="hint">${t("no_shape")}</p>`;
+  if (wall.kind === "horizontal") return plan(wall, blocks);
   const h = wall.height,
     reach = Math.max(2.2 * wall.thickness, 0.34 * h, ...wall.rest.flat().map(([x]) => -1.15 * x)),
     x0 = -reach,
@@ -58,12 +108,6 @@ export function drawing(wall, blocks) {
   for (const block of blocks ? wall.rest : wall.leaning) out.push(`<polygon class="ghost" points="${shape(block)}"/>`);
   for (const block of blocks || wall.rest) out.push(`<polygon class="body" points="${shape(block)}"/>`);
   if (!blocks) for (const [x, y] of wall.hinges) out.push(`<circle class="hinge" cx="${X(x)}" cy="${Y(y)}" r="3.4"/>`);
-  const arrow = (xa, ya, xb, yb) => {
-    const a = Math.atan2(yb - ya, xb - xa),
-      p = (d) => `${(xb - 8 * Math.cos(a + d)).toFixed(1)},${(yb - 8 * Math.sin(a + d)).toFixed(1)}`;
-    const head = tag("polygon", { class: "force-head", points: `${xb},${yb} ${p(0.42)} ${p(-0.42)}` });
-    return tag("line", { class: "force", x1: xa, y1: ya, x2: xb, y2: yb }) + head;
-  };
   const kn = (force) => `${num(force / 1e3, force < 1e4 ? 1 : 0)} ${wall.kind === "corner" ? "kN" : "kN/m"}`;
   for (const [x, y, force] of wall.loads)
     if (force > 0) out.push(arrow(X(x), Y(y) - 26, X(x), Y(y)), label(X(wall.thickness) + 6, Y(y) - 12, kn(force)));

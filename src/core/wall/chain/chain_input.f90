@@ -4,7 +4,6 @@
 module dondolo_wall_chain_input
    use dondolo_base_error, only : not_given, not_together, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : pi, wp
-   use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_chain, only : chain_action_type, chain_type, guide, is_guide, is_pin, pin
    use dondolo_wall_chain_masonry, only : find_nearest, masonry_type
@@ -14,7 +13,7 @@ module dondolo_wall_chain_input
    implicit none
    private
 
-   public :: read_chain, stands_between
+   public :: chain_rows_type, read_chain
 
    !> Bodies that a chain can have
    integer, parameter, public :: most_bodies = 8
@@ -33,6 +32,11 @@ module dondolo_wall_chain_input
    !> else holds the load sideways
    integer, parameter, public :: action_numbers = 10
 
+   !> Rows of a chain, one after the other
+   type :: chain_rows_type
+      real(wp), allocatable :: bodies(:), joints(:), actions(:), ties(:)
+   end type chain_rows_type
+
    !> Densities that masonry, and what is carried, can have [kg/m3]
    real(wp), parameter :: least_density = 100.0_wp, most_density = 1.0e4_wp
 
@@ -48,12 +52,14 @@ module dondolo_wall_chain_input
 contains
 
    !> Read a chain
-   subroutine read_chain(chain, masonry, input, problems)
+   subroutine read_chain(chain, masonry, rows, height, problems)
       !> Its driver and gravity are known
       type(chain_type), intent(inout) :: chain
       !> Parts of all bodies, and of masonry that stands still
       type(masonry_type), intent(out) :: masonry
-      class(settings_type), intent(in) :: input
+      type(chain_rows_type), intent(in) :: rows
+      !> Height of the wall [m]
+      real(wp), intent(in) :: height
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
@@ -61,20 +67,20 @@ contains
 
       allocate (chain%bodies(0), chain%joints(0), chain%actions(0))
       allocate (masonry%outlines(0), masonry%parts(0), masonry%body(0), masonry%standing(0))
-      call check_size('body_table', body_numbers)
-      call check_size('joint_table', joint_numbers)
-      call check_size('action_table', action_numbers)
-      call check_size('tie_table', tie_numbers)
+      call check_size('body_table', size(rows%bodies), body_numbers)
+      call check_size('joint_table', size(rows%joints), joint_numbers)
+      call check_size('action_table', size(rows%actions), action_numbers)
+      call check_size('tie_table', size(rows%ties), tie_numbers)
       if (problems%count > 0) return
-      call read_bodies(chain, masonry, as_rows('body_table', body_numbers), problems)
+      call read_bodies(chain, masonry, as_rows(rows%bodies, body_numbers), problems)
       if (problems%count > 0) return
       if (chain%driver > size(chain%bodies)) call problems%note('driver = '//to_text(chain%driver)//': must be one of '// &
          & to_text(size(chain%bodies))//' bodies', out_of_range, 'driver')
-      call read_joints(chain, as_rows('joint_table', joint_numbers), problems)
-      call read_actions(chain, masonry, as_rows('action_table', action_numbers), problems)
-      call read_chain_ties(chain, input%list('tie_table'), problems)
+      call read_joints(chain, as_rows(rows%joints, joint_numbers), problems)
+      call read_actions(chain, masonry, as_rows(rows%actions, action_numbers), problems)
+      call read_chain_ties(chain, rows%ties, problems)
       if (problems%count > 0) return
-      call check_places(chain, masonry, as_rows('body_table', body_numbers), max(least_gap, height_gap*input%number('height')), &
+      call check_places(chain, masonry, as_rows(rows%bodies, body_numbers), max(least_gap, height_gap*height), &
          & problems)
       if (problems%count > 0) return
       equations = sum(chain%joints%kind)
@@ -93,21 +99,21 @@ contains
    contains
 
       !> Check that a list is made of whole rows
-      subroutine check_size(name, numbers)
+      subroutine check_size(name, length, numbers)
          character(len=*), intent(in) :: name
-         integer, intent(in) :: numbers
+         integer, intent(in) :: length, numbers
 
-         if (modulo(size(input%list(name)), numbers) /= 0) call problems%note(name//': has '// &
-            & to_text(size(input%list(name)))//' values, must have rows of '//to_text(numbers), wrong_length, name)
+         if (modulo(length, numbers) /= 0) call problems%note(name//': has '//to_text(length)//' values, must have rows of '// &
+            & to_text(numbers), wrong_length, name)
       end subroutine check_size
 
       !> A list as rows
-      function as_rows(name, numbers) result(rows)
-         character(len=*), intent(in) :: name
+      pure function as_rows(list, numbers) result(table)
+         real(wp), intent(in) :: list(:)
          integer, intent(in) :: numbers
-         real(wp), allocatable :: rows(:, :)
+         real(wp), allocatable :: table(:, :)
 
-         rows = reshape(input%list(name), [numbers, size(input%list(name))/numbers])
+         table = reshape(list, [numbers, size(list)/numbers])
       end function as_rows
 
    end subroutine read_chain
@@ -373,27 +379,5 @@ contains
       end subroutine check_place
 
    end subroutine check_places
-
-   !> Do joints with the ground lie at two levels?
-   pure logical function stands_between(list, bodies)
-      !> Rows of the joints, and of the bodies, one after the other
-      real(wp), intent(in) :: list(:), bodies(:)
-
-      real(wp) :: low, high
-      integer :: i
-
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      do i = 0, size(list)/joint_numbers - 1
-         associate (row => list(joint_numbers*i + 1:joint_numbers*(i + 1)))
-            if (nint(row(2)) /= 0 .and. nint(row(3)) /= 0) cycle
-            low = min(low, row(5))
-            high = max(high, row(5))
-         end associate
-      end do
-      stands_between = high > low
-      ! A hinge on masonry that stands still is at no floor.
-      if (size(bodies) > 0) stands_between = stands_between .and. .not. any(nint(bodies(::body_numbers)) == 0)
-   end function stands_between
 
 end module dondolo_wall_chain_input

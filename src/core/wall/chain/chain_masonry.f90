@@ -7,7 +7,7 @@ module dondolo_wall_chain_masonry
    use dondolo_base_kinds, only : wp
    use dondolo_wall_chain, only : chain_action_type, chain_type, is_pin, motion_type
    use dondolo_wall_chain_impact, only : attached_type, cone_ratio, contact_type, velocity_of
-   use dondolo_wall_chain_overlap, only : outline_type
+   use dondolo_wall_chain_overlap, only : is_within, outline_type
    use dondolo_wall_chain_part, only : chain_mass_type
    use dondolo_wall_chain_terms, only : set_at_rest
    implicit none
@@ -391,21 +391,5 @@ contains
          distance = norm2(at - edge%ends(:, 1) - part*along)
       end associate
    end function distance_to
-
-   !> Does a point lie within a polygon?
-   pure logical function is_within(corners, at)
-      real(wp), intent(in) :: corners(:, :), at(2)
-
-      integer :: i, n
-
-      is_within = .false.
-      n = size(corners, 2)
-      do i = 1, n
-         associate (a => corners(:, i), b => corners(:, modulo(i, n) + 1))
-            if (a(2) > at(2) .eqv. b(2) > at(2)) cycle
-            if (at(1) < a(1) + (at(2) - a(2))/(b(2) - a(2))*(b(1) - a(1))) is_within = .not. is_within
-         end associate
-      end do
-   end function is_within
 
 end module dondolo_wall_chain_masonry

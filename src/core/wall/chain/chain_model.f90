@@ -1,5 +1,5 @@
-!> Walls that are chains of rigid bodies: 'chain'. Its name, its properties, and how it becomes a mechanism: its joints decide how
-!> it moves, and its terms are sampled into a table (dondolo_wall_tabulated).
+!> Walls that are chains of rigid bodies: 'chain', and 'horizontal', whose chain follows from its geometry. Properties of the first,
+!> and how they become mechanisms: joints decide how they move, and terms are sampled into a table (dondolo_wall_tabulated).
 module dondolo_wall_chain_model
    use dondolo_base_error, only : error_type, not_at_rest, not_given, out_of_range, problems_type, raise_input
    use dondolo_base_kinds, only : wp
@@ -11,7 +11,7 @@ module dondolo_wall_chain_model
    use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_chain, only : chain_type, motion_type
    use dondolo_wall_chain_check, only : chain_weights
-   use dondolo_wall_chain_input, only : read_chain, stands_between
+   use dondolo_wall_chain_input, only : body_numbers, chain_rows_type, joint_numbers, read_chain
    use dondolo_wall_chain_masonry, only : impact_bound, is_symmetric, masonry_type
    use dondolo_wall_chain_overlap, only : outline_type
    use dondolo_wall_chain_sides, only : make_inward
@@ -19,10 +19,11 @@ module dondolo_wall_chain_model
    use dondolo_wall_chain_table, only : chain_table_type, sample_chain
    use dondolo_wall_chain_terms, only : chain_support, chain_terms_type, find_end, set_at_rest, terms_at
    use dondolo_wall_chain_ties, only : anchors_of, tie_chain
+   use dondolo_wall_horizontal, only : check_horizontal, read_horizontal, take_length
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_restitution, only : impact_models_type
    use dondolo_wall_tabulated, only : new_tabulated, tabulated_type
-   use dondolo_wall_tabulated_model, only : chain_name, tabulated_model_type
+   use dondolo_wall_tabulated_model, only : chain_name, horizontal_name, tabulated_model_type
    implicit none
    private
 
@@ -63,6 +64,8 @@ module dondolo_wall_chain_model
    !> A wall that is a chain
    type, extends(tabulated_model_type) :: chain_model_type
       type(chain_type) :: chain
+      !> Its rows, as given or as they follow from its geometry
+      type(chain_rows_type) :: rows
       !> Its masonry, with what stands still
       type(masonry_type) :: masonry
       !> Anchors of its ties; forces are those of a whole tie
@@ -77,6 +80,8 @@ module dondolo_wall_chain_model
       logical :: is_image = .false.
       !> Upper bound of the restitution; huge: it is not known where the joints end
       real(wp) :: bound = huge(1.0_wp)
+      !> Was the place of a hinge looked for?
+      logical :: is_weakest = .false.
       !> Bodies that move into each other
       type(deepest_overlap_type) :: overlap
    contains
@@ -99,13 +104,35 @@ contains
       class(chain_model_type), intent(inout) :: self
       !> Properties as given
       class(settings_type), intent(inout) :: input
-      !> Takes nothing
+      !> Takes what does not agree
       type(problems_type), intent(inout) :: problems
 
-      associate (those => problems)
-      end associate
+      ! Both ends of a wall that bends horizontally move with the transverse walls at its level.
+      if (input%word('mechanism') == horizontal_name) call take_length(input, problems)
       if (stands_between(input%list('joint_table'), input%list('body_table'))) self%contact = spans
    end subroutine prepare
+
+   !> Do joints with the ground lie at two levels?
+   pure logical function stands_between(list, bodies)
+      !> Rows of the joints, and of the bodies, one after the other
+      real(wp), intent(in) :: list(:), bodies(:)
+
+      real(wp) :: low, high
+      integer :: i
+
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do i = 0, size(list)/joint_numbers - 1
+         associate (row => list(joint_numbers*i + 1:joint_numbers*(i + 1)))
+            if (nint(row(2)) /= 0 .and. nint(row(3)) /= 0) cycle
+            low = min(low, row(5))
+            high = max(high, row(5))
+         end associate
+      end do
+      stands_between = high > low
+      ! A hinge on masonry that stands still is at no floor.
+      if (size(bodies) > 0) stands_between = stands_between .and. .not. any(nint(bodies(::body_numbers)) == 0)
+   end function stands_between
 
    !> Read the rows, and check that they make a mechanism of one degree of freedom
    subroutine read(self, input, gravity, problems)
@@ -117,19 +144,34 @@ contains
       !> In: values beyond their ranges; takes what is wrong
       type(problems_type), intent(inout) :: problems
 
-      if (.not. input%has('sides')) call problems%note('sides: must be given with mechanism = ''chain'': 1 (one side only) '// &
-         & 'or 2 (both, as mirror images)', not_given, 'sides')
-      if (.not. input%has('body_table')) call problems%note('bodies: must be given with mechanism = ''chain''', not_given, &
-         & 'bodies')
-      if (.not. input%has('joint_table')) call problems%note('joints: must be given with mechanism = ''chain''', not_given, &
-         & 'joints')
-      if (problems%count > 0) return
-      self%is_whole = .true.
-      self%chain%gravity = gravity
-      self%chain%driver = 1
-      if (input%has('driver')) self%chain%driver = nint(input%number('driver'))
-      if (input%has('gravity_share')) self%chain%gravity_share = input%number('gravity_share')
-      call read_chain(self%chain, self%masonry, input, problems)
+      associate (is_band => input%word('mechanism') == horizontal_name)
+         if (.not. input%has('sides')) call problems%note('sides: must be given with mechanism = '''//trim(merge(horizontal_name, &
+            & chain_name, is_band))//''': 1 (one side only) or 2 (both, as mirror images)', not_given, 'sides')
+         if (is_band) then
+            call check_horizontal(input, problems)
+         else
+            if (.not. input%has('body_table')) call problems%note('bodies: must be given with mechanism = ''chain''', not_given, &
+               & 'bodies')
+            if (.not. input%has('joint_table')) call problems%note('joints: must be given with mechanism = ''chain''', &
+               & not_given, 'joints')
+         end if
+         if (problems%count > 0) return
+         self%is_whole = .true.
+         self%chain%gravity = gravity
+         self%chain%driver = 1
+         if (is_band) then
+            self%chain%gravity_share = 0.0_wp
+            self%is_weakest = .not. input%has('hinge_x')
+            call read_horizontal(input, problems, self%rows, self%hinge_depth)
+            if (problems%count > 0) return
+         else
+            if (input%has('driver')) self%chain%driver = nint(input%number('driver'))
+            if (input%has('gravity_share')) self%chain%gravity_share = input%number('gravity_share')
+            self%rows = chain_rows_type(input%list('body_table'), input%list('joint_table'), input%list('action_table'), &
+               & input%list('tie_table'))
+         end if
+      end associate
+      call read_chain(self%chain, self%masonry, self%rows, input%number('height'), problems)
       if (problems%count > 0) return
       self%anchors = anchors_of(self%chain)
       if (any(self%chain%ties%other > 0) .and. input%number('sides') > 1.0_wp) call problems%note('ties: tie '// &
@@ -288,6 +330,7 @@ contains
       associate (ignored => gravity)
       end associate
       side = merge(-1.0_wp, 1.0_wp, self%is_inward)
+      if (input%word('mechanism') == horizontal_name) call describe_leaves(self, input, lines)
       do i = 1, size(self%chain%bodies)
          associate (body => self%chain%bodies(i))
             call lines%add('body '//to_text(i)//': '//rounded(body%mass)//' kg at depth '//rounded(0.0_wp - side*body%at(1))// &
@@ -323,5 +366,19 @@ contains
       end if
       call self%tabulated_model_type%describe(input, gravity, lines)
    end subroutine describe
+
+   !> Describe where a wall that bends horizontally has its hinge
+   subroutine describe_leaves(model, input, lines)
+      type(chain_model_type), intent(in) :: model
+      !> Properties
+      class(settings_type), intent(in) :: input
+      !> `subject: numbers with their units`
+      type(lines_type), intent(inout) :: lines
+
+      associate (hinge => model%chain%joints(2)%at(2), length => input%number('length'))
+         call lines%add('leaves: '//rounded(hinge)//' and '//rounded(length - hinge)//' m long, of a band of 1 m height; the '// &
+            & 'hinge between them is '//trim(merge('given                 ', 'where alpha_0 is least', .not. model%is_weakest)))
+      end associate
+   end subroutine describe_leaves
 
 end module dondolo_wall_chain_model

@@ -7,7 +7,7 @@ module dondolo_wall_chain_overlap
    implicit none
    private
 
-   public :: depth_of_overlap, outline_type, overlap_of_bodies
+   public :: depth_of_overlap, is_within, outline_type, overlap_of_bodies
 
    !> The outline of a part of a body, or a piece of it
    type :: outline_type
@@ -190,5 +190,21 @@ contains
       end do
       shared_area = area_of(left)
    end function shared_area
+
+   !> Does a point lie within a polygon?
+   pure logical function is_within(corners, at)
+      real(wp), intent(in) :: corners(:, :), at(2)
+
+      integer :: i, n
+
+      is_within = .false.
+      n = size(corners, 2)
+      do i = 1, n
+         associate (a => corners(:, i), b => corners(:, modulo(i, n) + 1))
+            if (a(2) > at(2) .eqv. b(2) > at(2)) cycle
+            if (at(1) < a(1) + (at(2) - a(2))/(b(2) - a(2))*(b(1) - a(1))) is_within = .not. is_within
+         end associate
+      end do
+   end function is_within
 
 end module dondolo_wall_chain_overlap

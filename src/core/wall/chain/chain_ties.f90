@@ -175,11 +175,15 @@ contains
       call set_at_rest(chain, motion)
       do i = 1, size(rotation)
          call chain%move(rotation(i), motion, is_there)
-         if (.not. is_there) exit
+         if (.not. is_there) then
+            call raise_input(error, 'ties: outwards, where ties act, the chain closes on itself before '//rounded(rotation(i))// &
+               & ' rad, up to which its terms are needed; give sides = 1', out_of_range, 'ties')
+            return
+         end if
          lever(i, :) = [(lever_of_tie(chain, motion, chain%ties(k)), k=1, size(ties))]
       end do
       do k = 1, size(ties)
-         if (.not. is_there .or. any(.not. lever(:, k) > 0.0_wp .and. rotation <= mechanism%capacity)) then
+         if (any(.not. lever(:, k) > 0.0_wp .and. rotation <= mechanism%capacity)) then
             call raise_input(error, 'ties: tie '//to_text(k)//' would become shorter before the chain has turned by '// &
                & rounded(mechanism%capacity)//' rad, its capacity; its angle is that of the direction in which the motion '// &
                & 'stretches it, 0 for outwards', out_of_range, 'ties')

@@ -23,7 +23,7 @@ module dondolo_case_survey
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_wall_support_notes, only : supports_type
-   use dondolo_wall_tabulated_model, only : chain_name, tabulated_name
+   use dondolo_wall_tabulated_model, only : chain_name, horizontal_name, tabulated_name
    implicit none
    private
 
@@ -109,7 +109,8 @@ contains
             survey%lengths = max(survey%lengths, row%wall%input%lengths())
             call survey%supports%look(row%wall)
             call add_wall_words(survey%used, row%wall)
-            if (any(row%wall%mechanism_name() == [tabulated_name, chain_name])) call look_at_table(survey, row%wall)
+            if (any(row%wall%mechanism_name() == [tabulated_name, chain_name, horizontal_name])) call look_at_table(survey, &
+               & row%wall)
             call add_wall(survey%walls_fingerprint, row%wall)
             if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, row%wall%mechanism, error)
