@@ -230,7 +230,7 @@ cd "$root/python/tests" || exit 1
 start=$SECONDS
 runs "pip install pytest" -m pip install --quiet --disable-pip-version-check --no-compile --no-index \
    --find-links "Z:${place//\//\\}\\wheels" pytest hypothesis
-runs "${#tests[@]} files of tests" -B -m pytest -q -p no:cacheprovider -m "not slow" --color=no "${tests[@]}"
+runs "${#tests[@]} files of tests" -B -m pytest -p no:cacheprovider -m "not slow" --color=no "${tests[@]}"
 tail -n 25 "$work/said" | grep -E '^(FAILED|ERROR)|passed|failed'
 echo "tests of the package: $((SECONDS - start)) s"
 
