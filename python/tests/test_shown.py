@@ -71,6 +71,9 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 0.001, 1e-7])
     risk = curve.risk(hazard)
     two_block, corner = dd.TwoBlockWall(3.0, 0.25), dd.Corner(3.2, 0.5, wing_angle=20.0, hinge_depth=0.03)
+    band = dd.HorizontalBending(
+        length=4.0, thickness=0.45, end_thrust=25e3, hinge_depth=0.01, sides=1, restitution_value=0.7
+    )
     arch = dd.TabulatedWall(2.0, table=root / "data/walls/arch.csv", sides=1, restitution_value=0.9)
     moving = {"joints": [dd.Pin(1, 0, (0.0, 0.0))], "sides": 1, "restitution_value": 0.9}
     body = dd.Body([dd.Part([(0.0, 0.0), (-0.3, 0.0), (-0.3, 2.0), (0.0, 2.0)], width=1.0, density=1800.0)])
@@ -85,7 +88,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     case = dd.read_case(path)
     house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
     found = [
-        wall, dd.FreeStandingWall(1.5, 0.25), two_block, corner, arch, chain, dd.Population([wall, other]), house,
+        wall, dd.FreeStandingWall(1.5, 0.25), two_block, corner, band, arch, chain, dd.Population([wall, other]), house,
         records[0], dd.RecordSet(few), dd.RecordSet(records).select(target, 5), records[0].spectrum([0.1, 1.0]), site,
         target, stripes, curve, curve.bootstrap(n_resamples=20), curve.goodness_of_fit(), ida, ida.fit(),
         curve.with_model_error(-0.1, 0.3),

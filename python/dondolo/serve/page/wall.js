@@ -29,7 +29,8 @@ function plan(wall, blocks) {
   parts.push(label(X(0.5 * length), Y(-thickness - behind) + 12, t("transverse_walls"), { "text-anchor": "middle" }));
   for (const block of blocks ? wall.rest : wall.leaning) parts.push(`<polygon class="ghost" points="${shape(block)}"/>`);
   for (const block of blocks || wall.rest) parts.push(`<polygon class="body" points="${shape(block)}"/>`);
-  if (!blocks) for (const [x, y] of wall.hinges) parts.push(`<circle class="hinge" cx="${X(x)}" cy="${Y(y)}" r="3.4"/>`);
+  const joints = blocks ? [] : wall.hinges;
+  for (const [x, y] of joints) parts.push(`<circle class="hinge" cx="${X(x)}" cy="${Y(y)}" r="3.4"/>`);
   const level = Y(wall.hinges[0][1]);
   parts.push(
     arrow(X(-ends) - 34, level, X(-ends), level),
