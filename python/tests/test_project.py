@@ -585,8 +585,8 @@ def test_results_are_made_by_the_names_of_their_fields():
     made_by_users = {
         "Body", "Building", "Chain", "Choice", "Corner", "DiscreteFragility", "DistributedSpring", "FreeStandingWall",
         "FunctionFragility", "GivenMass", "Guide", "HazardCurve", "HorizontalBending", "InertialMass", "Load",
-        "Lognormal", "Normal", "OneSidedWall", "Part", "Pin", "PointLoad", "PointMass", "PointThrust", "PointTie", "Population",
-        "Record", "RecordSet", "Section", "Sector", "Site", "Spring", "TabulatedWall", "TargetSpectrum",
+        "Lognormal", "Normal", "OneSidedWall", "Part", "Pin", "PointLoad", "PointMass", "PointThrust", "PointTie",
+        "Population", "Record", "RecordSet", "Section", "Sector", "Site", "Spring", "TabulatedWall", "TargetSpectrum",
         "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name, thing in public_things().items() if dataclasses.is_dataclass(thing)}
