@@ -27,7 +27,8 @@ function plan(wall, blocks) {
     tag("rect", { class: "behind", x: X(x), y: Y(-thickness - behind), width: ends * scale, height: Y(0) - 4 }),
   );
   parts.push(label(X(0.5 * length), Y(-thickness - behind) + 12, t("transverse_walls"), { "text-anchor": "middle" }));
-  for (const block of blocks ? wall.rest : wall.leaning) parts.push(`<polygon class="ghost" points="${shape(block)}"/>`);
+  const ghosts = blocks ? wall.rest : wall.leaning;
+  for (const block of ghosts) parts.push(`<polygon class="ghost" points="${shape(block)}"/>`);
   for (const block of blocks || wall.rest) parts.push(`<polygon class="body" points="${shape(block)}"/>`);
   const joints = blocks ? [] : wall.hinges;
   for (const [x, y] of joints) parts.push(`<circle class="hinge" cx="${X(x)}" cy="${Y(y)}" r="3.4"/>`);
