@@ -403,7 +403,8 @@ function removePart(kind, place) {
   state.fan = null;
   again();
 }
-export const heightOf = () => wall().height ?? wall().length ?? clean((wall().section_height || [3]).reduce((a, b) => a + b, 0));
+export const heightOf = () =>
+  wall().height ?? wall().length ?? clean((wall().section_height || [3]).reduce((a, b) => a + b, 0));
 export const thicknessOf = () => wall().thickness ?? wall().section_thickness?.[0] ?? 0.3;
 
 function changeKind(kind) {

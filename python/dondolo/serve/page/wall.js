@@ -45,7 +45,10 @@ function plan(wall, blocks) {
         label(X(place) + 5, Y(-thickness) - 16, kn(force)),
       );
   parts.push(
-    tag("path", { class: "axis", d: `M${X(0)} ${below}H${X(length)}M${X(0)} ${below - 4}v8M${X(length)} ${below - 4}v8` }),
+    tag("path", {
+      class: "axis",
+      d: `M${X(0)} ${below}H${X(length)}M${X(0)} ${below - 4}v8M${X(length)} ${below - 4}v8`,
+    }),
     label(X(0.5 * length), below + 16, `${num(length, 2)} m`, { "text-anchor": "middle" }),
     label(X(length) + 6, Y(0) + 16, `${num(thickness, 2)} m`),
   );
