@@ -615,8 +615,8 @@ refused "empty threads" '--threads : must be an integer' --threads= good.nml
 refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
 refused "a verbose run" '--verbose: goes with --version alone' --verbose good.nml
 refused "two actions" '--version: cannot go together with --check' --check --version
-refused "example that does not exist" "--example barn: must be one of 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade'" --example barn
-refused "example without a name" "--example: must be one of 'compound', 'corner', 'designs', 'elastic_strip', 'elevation', 'facade'" --example
+refused "example that does not exist" "--example barn: must be one of 'arch', 'cavity_wall', 'compound', 'corner', 'designs'" --example barn
+refused "example without a name" "--example: must be one of 'arch', 'cavity_wall', 'compound', 'corner', 'designs'" --example
 refused "example with a case" '--example takes no case' good.nml --example parapet
 refused "completion of an unknown shell" "--completion fish: must be one of 'bash', 'zsh'" --completion fish
 refused "run without a case" 'no case given' run
